@@ -1,0 +1,51 @@
+#pragma once
+// Nearest neighbours in a fixed set of points (CGAL's kd-tree, hidden).
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace tcm_icp {
+
+struct Neighbor {
+  std::uint32_t index = std::numeric_limits<std::uint32_t>::max();
+  double squared_distance_m2 = std::numeric_limits<double>::infinity();
+
+  bool found() const { return squared_distance_m2 < std::numeric_limits<double>::infinity(); }
+};
+
+/// A kd-tree over a copy of `points`. Built in the constructor, so every query is const and thread-safe.
+/// Cost: O(N log N) to build, O(log N) expected a query; about 60 bytes a point.
+class NeighborIndex {
+ public:
+  /// @throws InvalidInput  if a coordinate is not finite, or there are 2^32 - 1 points or more
+  explicit NeighborIndex(std::span<const Eigen::Vector3d> points);
+  ~NeighborIndex();
+  NeighborIndex(NeighborIndex&&) noexcept;
+  NeighborIndex& operator=(NeighborIndex&&) noexcept;
+
+  std::size_t size() const;
+
+  /// The nearest point; not found() where the index is empty. Between equally near points the choice is the tree's, and
+  /// always the same for the same points.
+  Neighbor nearest(const Eigen::Vector3d& query) const;
+
+  /// The nearest point within `radius_m`; not found() where there is none. Faster than nearest() where most miss.
+  Neighbor nearest_within(const Eigen::Vector3d& query, double radius_m) const;
+
+  /// Up to k nearest points, by distance and then index.
+  void nearest_k(const Eigen::Vector3d& query, std::size_t k, std::vector<Neighbor>& out) const;
+
+  /// All points within `radius_m`, by distance and then index.
+  void within(const Eigen::Vector3d& query, double radius_m, std::vector<Neighbor>& out) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace tcm_icp

@@ -1,0 +1,93 @@
+#include "tcm_icp/core/normals.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "tcm_icp/core/error.hpp"
+#include "tcm_icp/core/parallel.hpp"
+
+namespace tcm_icp {
+namespace {
+
+// A neighbourhood whose second axis is shorter than this share of its first is a line: one ring of a spinning scanner.
+constexpr double kMinAxisRatio = 0.2;
+constexpr std::size_t kSpacingSamples = 2000;
+
+struct Plane {
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+  double roughness_m = 0;
+  bool is_line = true;
+};
+
+Plane fit_plane(const Points& points, const std::vector<Neighbor>& neighbors) {
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (const auto& n : neighbors) mean += points[n.index];
+  mean /= static_cast<double>(neighbors.size());
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  for (const auto& n : neighbors) {
+    const Eigen::Vector3d d = points[n.index] - mean;
+    covariance += d * d.transpose();
+  }
+  covariance /= static_cast<double>(neighbors.size());
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
+  solver.computeDirect(covariance);  // closed form; ascending eigenvalues
+  const Eigen::Vector3d values = solver.eigenvalues().cwiseMax(0);
+  Plane plane;
+  plane.is_line = !(values[1] > kMinAxisRatio * kMinAxisRatio * values[2]);
+  const Eigen::Vector3d normal = solver.eigenvectors().col(0);
+  if (normal.allFinite()) plane.normal = normal.normalized();
+  plane.roughness_m = std::sqrt(values[0]);
+  return plane;
+}
+
+}  // namespace
+
+void NormalOptions::validate() const {
+  if (min_neighbors < 3) {
+    throw InvalidOptions("min_neighbors is " + std::to_string(min_neighbors) + "; it must be at least 3");
+  }
+  if (max_neighbors < min_neighbors) {
+    throw InvalidOptions("max_neighbors is " + std::to_string(max_neighbors) + "; it must be at least min_neighbors (" +
+                         std::to_string(min_neighbors) + ")");
+  }
+}
+
+NormalEstimate estimate_normals(const Points& points, const NeighborIndex& index, const NormalOptions& options,
+                                int num_threads) {
+  options.validate();
+  NormalEstimate out{Points(points.size(), Eigen::Vector3d::Zero()), std::vector<double>(points.size(), 0.0)};
+  parallel_for(num_threads, points.size(), [&](std::size_t begin, std::size_t end) {
+    std::vector<Neighbor> neighbors;
+    for (std::size_t i = begin; i < end; ++i) {
+      Plane plane;
+      for (int k = options.min_neighbors; plane.is_line; k = std::min(2 * k, options.max_neighbors)) {
+        index.nearest_k(points[i], static_cast<std::size_t>(k), neighbors);
+        if (neighbors.size() < 3) break;
+        plane = fit_plane(points, neighbors);
+        if (k == options.max_neighbors) break;
+      }
+      if (plane.is_line) continue;
+      out.normals[i] = plane.normal;
+      out.roughness_m[i] = plane.roughness_m;
+    }
+  });
+  return out;
+}
+
+double median_spacing(const Points& points, const NeighborIndex& index) {
+  if (points.size() < 2) return 0;
+  const std::size_t step = std::max<std::size_t>(1, points.size() / kSpacingSamples);
+  std::vector<double> distances;
+  std::vector<Neighbor> neighbors;
+  for (std::size_t i = 0; i < points.size(); i += step) {
+    index.nearest_k(points[i], 2, neighbors);
+    distances.push_back(std::sqrt(neighbors.back().squared_distance_m2));
+  }
+  const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
+  std::nth_element(distances.begin(), middle, distances.end());
+  return *middle;
+}
+
+}  // namespace tcm_icp

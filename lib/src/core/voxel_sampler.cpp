@@ -1,0 +1,210 @@
+#include "tcm_icp/core/voxel_sampler.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "tcm_icp/core/error.hpp"
+
+namespace tcm_icp {
+namespace {
+
+// The first voxel edge as a share of the scan's size: 2.5 mm for a scan whose points lie 10 m from its middle.
+constexpr double kFirstVoxelShare = 1.0 / 4096;
+
+double median(std::vector<double>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+// Half the time a typical sample takes is look-ups, and nodes of std::unordered_map cost a cache miss each: keys lie in one
+// array (open addressing, linear probing), values are positions in the list of voxels.
+class VoxelTable {
+ public:
+  static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+
+  explicit VoxelTable(std::size_t capacity) {
+    std::size_t slots = 16;
+    while (slots < 2 * capacity) slots *= 2;
+    slots_.resize(slots);
+  }
+
+  /// The voxel's position; `next` is stored and returned where the voxel is new.
+  std::uint32_t find_or_insert(const VoxelKey& key, std::uint32_t next) {
+    const std::size_t mask = slots_.size() - 1;
+    std::size_t i = VoxelKeyHash{}(key)&mask;
+    while (slots_[i].position != kNone) {
+      if (slots_[i].key == key) return slots_[i].position;
+      i = (i + 1) & mask;
+    }
+    slots_[i] = {key, next};
+    return next;
+  }
+
+ private:
+  struct Slot {
+    VoxelKey key;
+    std::uint32_t position = kNone;
+  };
+  std::vector<Slot> slots_;
+};
+
+struct Voxel {
+  VoxelKey key;
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  double count = 0;
+};
+
+std::int64_t floor_to_int(double value) {
+  constexpr double kLimit = 0x1.0p61;
+  return static_cast<std::int64_t>(std::floor(std::clamp(value, -kLimit, kLimit)));
+}
+
+}  // namespace
+
+VoxelKey voxel_key(const Eigen::Vector3d& point, double voxel_size_m) {
+  return {floor_to_int(point.x() / voxel_size_m), floor_to_int(point.y() / voxel_size_m),
+          floor_to_int(point.z() / voxel_size_m)};
+}
+
+std::size_t VoxelKeyHash::operator()(const VoxelKey& key) const {
+  std::uint64_t h = static_cast<std::uint64_t>(key.x) * 0x9e3779b97f4a7c15ULL;
+  h ^= static_cast<std::uint64_t>(key.y) * 0xc2b2ae3d27d4eb4fULL + (h >> 29);
+  h ^= static_cast<std::uint64_t>(key.z) * 0x165667b19e3779f9ULL + (h >> 31);
+  h ^= h >> 32;
+  h *= 0xd6e8feb86659fd93ULL;
+  return h ^ (h >> 32);
+}
+
+struct VoxelSampler::Impl {
+  explicit Impl(std::size_t max) : max_voxels(max), table(max + 1) {}
+
+  std::size_t max_voxels;
+  double size = 0;
+  Eigen::Vector3d waiting = Eigen::Vector3d::Zero();  ///< the one place where all points so far lie
+  double num_waiting = 0;
+  VoxelTable table;
+  std::vector<Voxel> voxels;
+
+  void choose_size(const Points& points) {
+    std::vector<double> values(points.size());
+    Eigen::Vector3d middle;
+    for (int axis = 0; axis < 3; ++axis) {
+      for (std::size_t i = 0; i < points.size(); ++i) values[i] = points[i][axis];
+      middle[axis] = median(values);
+    }
+    // The median, so that a stray point a light year away decides nothing.
+    for (std::size_t i = 0; i < points.size(); ++i) values[i] = (points[i] - middle).norm();
+    double length = median(values);
+    if (length == 0) {
+      length = *std::max_element(values.begin(), values.end());
+    }
+    size = kFirstVoxelShare * length;
+  }
+
+  void insert(const VoxelKey& key, const Eigen::Vector3d& sum, double count) {
+    const std::uint32_t position = table.find_or_insert(key, static_cast<std::uint32_t>(voxels.size()));
+    if (position == voxels.size()) voxels.push_back({key, Eigen::Vector3d::Zero(), 0});
+    voxels[position].sum += sum;
+    voxels[position].count += count;
+    while (voxels.size() > max_voxels) coarsen();
+  }
+
+  void coarsen() {
+    std::vector<Voxel> finer;
+    finer.swap(voxels);
+    table = VoxelTable(max_voxels + 1);
+    size *= 2;
+    for (const auto& v : finer) {
+      // Arithmetic shift: floor(k / 2) for negative keys too.
+      const VoxelKey key{v.key.x >> 1, v.key.y >> 1, v.key.z >> 1};
+      const std::uint32_t position = table.find_or_insert(key, static_cast<std::uint32_t>(voxels.size()));
+      if (position == voxels.size()) voxels.push_back({key, Eigen::Vector3d::Zero(), 0});
+      voxels[position].sum += v.sum;
+      voxels[position].count += v.count;
+    }
+  }
+};
+
+VoxelSampler::VoxelSampler(std::size_t max_voxels) : impl_(nullptr) {
+  if (max_voxels < 8) {
+    throw InvalidOptions("max_voxels is " + std::to_string(max_voxels) + "; it must be at least 8");
+  }
+  impl_ = std::make_unique<Impl>(max_voxels);
+}
+VoxelSampler::~VoxelSampler() = default;
+VoxelSampler::VoxelSampler(VoxelSampler&&) noexcept = default;
+VoxelSampler& VoxelSampler::operator=(VoxelSampler&&) noexcept = default;
+
+void VoxelSampler::add(std::span<const Eigen::Vector3d> points) {
+  auto& s = *impl_;
+  if (points.empty()) return;
+  if (s.size == 0) {
+    // As long as all points are equal they wait as one: there is no length yet.
+    Points all(points.begin(), points.end());
+    if (s.num_waiting > 0) all.push_back(s.waiting);
+    s.choose_size(all);
+    if (s.size == 0) {
+      s.waiting = points.front();
+      s.num_waiting += static_cast<double>(points.size());
+      return;
+    }
+    if (s.num_waiting > 0) s.insert(voxel_key(s.waiting, s.size), s.num_waiting * s.waiting, s.num_waiting);
+  }
+  for (const auto& p : points) s.insert(voxel_key(p, s.size), p, 1);
+}
+
+Points VoxelSampler::finish() {
+  auto& s = *impl_;
+  if (s.size == 0) return s.num_waiting > 0 ? Points{s.waiting} : Points{};
+  Points out;
+  out.reserve(s.voxels.size());
+  for (const auto& v : s.voxels) out.push_back(v.sum / v.count);
+  return out;
+}
+
+double VoxelSampler::voxel_size_m() const { return impl_->size; }
+
+Cloud voxel_downsample(const Cloud& cloud, double voxel_size_m) {
+  VoxelTable table(cloud.size());
+  std::vector<Voxel> voxels;
+  std::vector<std::uint32_t> voxel_of(cloud.size());
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    const VoxelKey key = voxel_key(cloud.points[i], voxel_size_m);
+    voxel_of[i] = table.find_or_insert(key, static_cast<std::uint32_t>(voxels.size()));
+    if (voxel_of[i] == voxels.size()) voxels.push_back({key, Eigen::Vector3d::Zero(), 0});
+    voxels[voxel_of[i]].sum += cloud.points[i];
+    voxels[voxel_of[i]].count += 1;
+  }
+  Cloud out;
+  out.points.reserve(voxels.size());
+  for (const auto& v : voxels) out.points.push_back(v.sum / v.count);
+  if (!cloud.has_normals()) return out;
+
+  // Normals have no sign: take the point nearest the mean for the direction, and add the others turned its way.
+  std::vector<std::uint32_t> nearest(voxels.size(), VoxelTable::kNone);
+  std::vector<double> nearest_squared(voxels.size(), std::numeric_limits<double>::infinity());
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    const double squared = (cloud.points[i] - out.points[voxel_of[i]]).squaredNorm();
+    if (!cloud.normals[i].isZero() && squared < nearest_squared[voxel_of[i]]) {
+      nearest_squared[voxel_of[i]] = squared;
+      nearest[voxel_of[i]] = static_cast<std::uint32_t>(i);
+    }
+  }
+  out.normals.assign(voxels.size(), Eigen::Vector3d::Zero());
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    const std::uint32_t v = voxel_of[i];
+    if (nearest[v] == VoxelTable::kNone) continue;
+    const double along = cloud.normals[i].dot(cloud.normals[nearest[v]]);
+    out.normals[v] += along < 0 ? Eigen::Vector3d(-cloud.normals[i]) : cloud.normals[i];
+  }
+  for (auto& n : out.normals) {
+    const double length = n.norm();
+    n = length > 0 ? Eigen::Vector3d(n / length) : Eigen::Vector3d::Zero();
+  }
+  return out;
+}
+
+}  // namespace tcm_icp
