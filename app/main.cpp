@@ -1,0 +1,83 @@
+// tcm-icp: the table of subcommands, and the one place where errors become exit codes.
+
+#include <array>
+#include <boost/program_options/errors.hpp>
+#include <exception>
+#include <iostream>
+#include <new>
+#include <string_view>
+
+#include "command.hpp"
+#include "tcm_icp/core/error.hpp"
+#include "version.hpp"
+
+namespace {
+
+using namespace tcm_icp::app;
+
+struct Command {
+  std::string_view name;
+  int (*run)(const Arguments&);
+  std::string_view summary;
+};
+
+constexpr std::array kCommands{
+    Command{"register", cmd_register, "put scans into one frame: poses, merged cloud and report"},
+    Command{"evaluate", cmd_evaluate, "errors of poses against ground truth"},
+    Command{"simulate", cmd_simulate, "LiDAR scans of a made-up scene, with exact truth"},
+};
+
+void print_help(std::ostream& out) {
+  out << "tcm-icp " << kVersion << ": registers many LiDAR scans into one frame\n\nUsage: tcm-icp COMMAND [OPTIONS]\n\n";
+  for (const auto& c : kCommands) out << "  " << c.name << std::string(12 - c.name.size(), ' ') << c.summary << '\n';
+  out << "\n'tcm-icp COMMAND --help' lists a command's options, 'tcm-icp --version' the version.\n"
+         "Exit codes: 0 all scans registered; 1 wrong usage; 2 input cannot be read; 3 some scan is unregistered;\n"
+         "            4 output cannot be written; 130 interrupted\n";
+}
+
+int fail(ExitCode code, std::string_view message) {
+  std::cerr << "tcm-icp: " << message << '\n';
+  return code;
+}
+
+int run(int argc, char** argv) {
+  if (argc < 2) {
+    print_help(std::cerr);
+    return kUsageError;
+  }
+  const std::string_view name = argv[1];
+  if (name == "--help" || name == "-h" || name == "help") {
+    print_help(std::cout);
+    return kSuccess;
+  }
+  if (name == "--version") {
+    std::cout << "tcm-icp " << kVersion << '\n';
+    return kSuccess;
+  }
+  for (const auto& c : kCommands) {
+    if (c.name == name) return c.run(Arguments(argv + 2, argv + argc));
+  }
+  return fail(kUsageError, "unknown command '" + std::string(name) + "'; 'tcm-icp --help' lists the commands");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const tcm_icp::Cancelled& e) {
+    return fail(kInterrupted, e.what());
+  } catch (const tcm_icp::InvalidOptions& e) {
+    return fail(kUsageError, e.what());
+  } catch (const boost::program_options::error& e) {
+    return fail(kUsageError, std::string(e.what()) + "; 'tcm-icp " + (argc > 1 ? argv[1] : "") + " --help' lists the options");
+  } catch (const tcm_icp::OutputError& e) {
+    return fail(kOutputError, e.what());
+  } catch (const tcm_icp::Error& e) {
+    return fail(kInputError, e.what());
+  } catch (const std::bad_alloc&) {
+    return fail(kInternalError, "out of memory");
+  } catch (const std::exception& e) {
+    return fail(kInternalError, std::string("internal error: ") + e.what() + "; please report this");
+  }
+}
