@@ -18,6 +18,7 @@ constexpr std::size_t kSpacingSamples = 2000;
 struct Plane {
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
   double roughness_m = 0;
+  double variation = 0;
   bool is_line = true;
 };
 
@@ -39,6 +40,7 @@ Plane fit_plane(const Points& points, const std::vector<Neighbor>& neighbors) {
   const Eigen::Vector3d normal = solver.eigenvectors().col(0);
   if (normal.allFinite()) plane.normal = normal.normalized();
   plane.roughness_m = std::sqrt(values[0]);
+  plane.variation = values[0] / values.sum();
   return plane;
 }
 
@@ -57,7 +59,8 @@ void NormalOptions::validate() const {
 NormalEstimate estimate_normals(const Points& points, const NeighborIndex& index, const NormalOptions& options,
                                 int num_threads) {
   options.validate();
-  NormalEstimate out{Points(points.size(), Eigen::Vector3d::Zero()), std::vector<double>(points.size(), 0.0)};
+  NormalEstimate out{Points(points.size(), Eigen::Vector3d::Zero()), std::vector<double>(points.size(), 0.0),
+                     std::vector<double>(points.size(), 0.0)};
   parallel_for(num_threads, points.size(), [&](std::size_t begin, std::size_t end) {
     std::vector<Neighbor> neighbors;
     for (std::size_t i = begin; i < end; ++i) {
@@ -71,6 +74,7 @@ NormalEstimate estimate_normals(const Points& points, const NeighborIndex& index
       if (plane.is_line) continue;
       out.normals[i] = plane.normal;
       out.roughness_m[i] = plane.roughness_m;
+      out.variation[i] = plane.variation;
     }
   });
   return out;

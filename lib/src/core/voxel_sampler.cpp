@@ -167,6 +167,15 @@ Points VoxelSampler::finish() {
 
 double VoxelSampler::voxel_size_m() const { return impl_->size; }
 
+std::size_t count_voxels(const Points& points, double voxel_size_m) {
+  VoxelTable table(points.size());
+  std::uint32_t count = 0;
+  for (const auto& p : points) {
+    if (table.find_or_insert(voxel_key(p, voxel_size_m), count) == count) ++count;
+  }
+  return count;
+}
+
 Cloud voxel_downsample(const Cloud& cloud, double voxel_size_m) {
   VoxelTable table(cloud.size());
   std::vector<Voxel> voxels;

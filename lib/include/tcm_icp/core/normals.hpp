@@ -14,6 +14,7 @@ struct NormalOptions {
 
 struct NormalEstimate {
   Points normals;                   ///< unit vectors of arbitrary sign; zero where no surface could be told
+  std::vector<double> variation;    ///< surface variation: least eigenvalue by their sum, 0 (plane) to 1/3 (no direction)
   std::vector<double> roughness_m;  ///< [m] standard deviation of the neighbours from their plane
 };
 

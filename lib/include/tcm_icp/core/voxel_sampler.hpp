@@ -50,6 +50,9 @@ class VoxelSampler {
   std::unique_ptr<Impl> impl_;
 };
 
+/// Number of voxels of the given size that hold a point. O(N).
+std::size_t count_voxels(const Points& points, double voxel_size_m);
+
 /// One mean point per voxel of the given size; normals, where there are any, are averaged as axes of the point nearest the mean.
 Cloud voxel_downsample(const Cloud& cloud, double voxel_size_m);
 

@@ -1,0 +1,37 @@
+#pragma once
+// Registration by linear programs: nearest neighbours, one L1 fit by the simplex method, and again.
+
+#include "tcm_icp/core/run_context.hpp"
+#include "tcm_icp/registration/correspondences.hpp"
+#include "tcm_icp/registration/linear_program.hpp"
+#include "tcm_icp/registration/registration_result.hpp"
+#include "tcm_icp/registration/scan_pyramid.hpp"
+
+namespace tcm_icp {
+
+struct LpRegistrationOptions {
+  double initial_gate_m = 0;          ///< [m] > 0; correspondences may be this far apart at first
+  double final_gate_m = 0;            ///< [m] > 0, <= initial_gate_m; and this far at last
+  double gate_shrink = 0.75;          ///< 0 < shrink < 1; factor on the gate from one iteration to the next
+  double initial_normal_angle_deg = 60;  ///< [deg] normals may differ by this much at first
+  double final_normal_angle_deg = 30;    ///< [deg] and by this much at last
+  int max_iterations = 60;            ///< >= 1
+  double convergence_share = 0.002;   ///< stop when a step moves the points less than this share of the final gate (rms)
+  int min_correspondences = 12;       ///< >= 6
+  LpOptions lp;
+  void validate() const;  ///< throws InvalidOptions naming field, value and bound
+};
+
+/// One L1 point-to-plane step: the twist about `centre` that minimises sum |n . (p + w x (p - centre) + t - q)|, 6 unknowns,
+/// solved exactly through its dual linear program. Rotations are scaled by the matches' RMS radius.
+/// @param iterations  what the step did is added to its LP figures
+Termination lp_point_to_plane_step(const std::vector<Correspondence>& matches, const LpOptions& options,
+                                   Eigen::Isometry3d& T_target_source, LpFigures& figures, double& step_m);
+
+/// Registers `source` to `target` from T_init: correspondences within a gate on distance and normal that shrinks from
+/// initial to final, an L1 step on each set, until steps are small at the final gate.
+/// The target's pyramid level follows the gate, so the first steps are cheap and blind to detail.
+RegistrationResult register_lp(const Cloud& source, const ScanPyramid& target, const Eigen::Isometry3d& T_init,
+                               const LpRegistrationOptions& options);
+
+}  // namespace tcm_icp

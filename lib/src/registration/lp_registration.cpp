@@ -1,0 +1,136 @@
+#include "tcm_icp/registration/lp_registration.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "tcm_icp/core/error.hpp"
+#include "tcm_icp/core/rigid_transform.hpp"
+#include "tcm_icp/registration/l1_fit.hpp"
+
+namespace tcm_icp {
+namespace {
+
+double radians(double degrees) { return degrees * std::numbers::pi / 180; }
+
+double median_plane_distance(const std::vector<Correspondence>& matches) {
+  std::vector<double> values;
+  values.reserve(matches.size());
+  for (const auto& m : matches) values.push_back(std::abs(m.normal.dot(m.source - m.target)));
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+}  // namespace
+
+std::string_view to_string(Termination termination) {
+  switch (termination) {
+    case Termination::kNotRun: return "not run";
+    case Termination::kConverged: return "converged";
+    case Termination::kMaxIterations: return "max iterations";
+    case Termination::kStopped: return "stopped";
+    case Termination::kTooFewCorrespondences: return "too few correspondences";
+    case Termination::kLpInfeasible: return "LP infeasible";
+    case Termination::kLpFailed: return "LP failed";
+  }
+  return "unknown";
+}
+
+void LpRegistrationOptions::validate() const {
+  const auto require = [](bool ok, const char* what, double value) {
+    if (!ok) throw InvalidOptions(std::string(what) + ", not " + std::to_string(value));
+  };
+  require(initial_gate_m > 0, "initial_gate_m must be above 0 m", initial_gate_m);
+  require(final_gate_m > 0 && final_gate_m <= initial_gate_m, "final_gate_m must be above 0 m and at most initial_gate_m",
+          final_gate_m);
+  require(gate_shrink > 0 && gate_shrink < 1, "gate_shrink must be between 0 and 1", gate_shrink);
+  require(initial_normal_angle_deg > 0 && initial_normal_angle_deg <= 90,
+          "initial_normal_angle_deg must be above 0 and at most 90 degrees", initial_normal_angle_deg);
+  require(final_normal_angle_deg > 0 && final_normal_angle_deg <= 90,
+          "final_normal_angle_deg must be above 0 and at most 90 degrees", final_normal_angle_deg);
+  require(max_iterations >= 1, "max_iterations must be at least 1", max_iterations);
+  require(convergence_share > 0, "convergence_share must be above 0", convergence_share);
+  require(min_correspondences >= 6, "min_correspondences must be at least 6", min_correspondences);
+  lp.validate();
+}
+
+Termination lp_point_to_plane_step(const std::vector<Correspondence>& matches, const LpOptions& options,
+                                   Eigen::Isometry3d& T_target_source, LpFigures& figures, double& step_m) {
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+  for (const auto& m : matches) centre += m.source;
+  centre /= static_cast<double>(matches.size());
+  double squared_radius = 0;
+  for (const auto& m : matches) squared_radius += (m.source - centre).squaredNorm();
+  const double radius = std::sqrt(squared_radius / static_cast<double>(matches.size()));
+  if (!(radius > 0)) return Termination::kTooFewCorrespondences;
+
+  const auto n = static_cast<Eigen::Index>(matches.size());
+  Eigen::MatrixXd A(n, 6);
+  Eigen::VectorXd d(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const auto& m = matches[static_cast<std::size_t>(i)];
+    // n . (w x (p - c)) = w . ((p - c) x n); unknowns (w radius, t), all in metres
+    A.row(i).head<3>() = (m.source - centre).cross(m.normal).transpose() / radius;
+    A.row(i).tail<3>() = m.normal.transpose();
+    d[i] = -m.normal.dot(m.source - m.target);
+  }
+  const L1FitResult fit = fit_l1(A, d, options);
+  figures.num_programs += 1;
+  figures.num_pivots += fit.pivots;
+  figures.seconds += fit.seconds;
+  figures.objective = fit.objective;
+  figures.relative_duality_gap = std::fmax(figures.relative_duality_gap, fit.duality_gap);
+  if (fit.status != LpStatus::kOptimal) {
+    return fit.status == LpStatus::kInfeasible ? Termination::kLpInfeasible : Termination::kLpFailed;
+  }
+  Twist twist = fit.x;
+  twist.head<3>() /= radius;
+  step_m = fit.x.norm();
+  T_target_source = isometry_about(centre, twist) * T_target_source;
+  // Thousands of products drift off SO(3) by rounding.
+  T_target_source.linear() = project_onto_so3(T_target_source.linear());
+  return Termination::kConverged;
+}
+
+RegistrationResult register_lp(const Cloud& source, const ScanPyramid& target, const Eigen::Isometry3d& T_init,
+                               const LpRegistrationOptions& options) {
+  options.validate();
+  RegistrationResult result;
+  result.T_target_source = T_init;
+  result.termination = Termination::kMaxIterations;
+  double gate = options.initial_gate_m;
+  // The angle closes with the gate: 1 at the initial gate, 0 at the final one, on a logarithmic scale.
+  const double log_range = std::log(options.initial_gate_m / options.final_gate_m);
+  for (int i = 0; i < options.max_iterations; ++i) {
+    const bool final_gate = gate <= options.final_gate_m;
+    const double openness = log_range > 0 ? std::log(gate / options.final_gate_m) / log_range : 0;
+    const double angle =
+        options.final_normal_angle_deg + openness * (options.initial_normal_angle_deg - options.final_normal_angle_deg);
+    const auto matches =
+        find_correspondences(source, result.T_target_source, target.level_for(gate / 3), {gate, radians(angle)});
+    result.num_correspondences = matches.size();
+    if (static_cast<int>(matches.size()) < options.min_correspondences) {
+      result.termination = Termination::kTooFewCorrespondences;
+      return result;
+    }
+    result.median_residual_m = median_plane_distance(matches);
+    double step_m = 0;
+    const Termination step =
+        lp_point_to_plane_step(matches, options.lp, result.T_target_source, result.lp, step_m);
+    if (step != Termination::kConverged) {
+      result.termination = step;
+      return result;
+    }
+    ++result.num_iterations;
+    if (final_gate && step_m < options.convergence_share * options.final_gate_m) {
+      result.termination = Termination::kConverged;
+      return result;
+    }
+    gate = std::max(options.final_gate_m, gate * options.gate_shrink);
+  }
+  return result;
+}
+
+}  // namespace tcm_icp

@@ -1,0 +1,50 @@
+#include "tcm_icp/registration/scan_pyramid.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tcm_icp/core/error.hpp"
+#include "tcm_icp/core/voxel_sampler.hpp"
+
+namespace tcm_icp {
+
+ScanPyramid::ScanPyramid(const Cloud& cloud, double finest_voxel_m, std::size_t num_levels) {
+  double voxel = finest_voxel_m;
+  levels_.reserve(num_levels);
+  for (std::size_t i = 0; i < num_levels; ++i, voxel *= 2) {
+    Cloud sampled = voxel_downsample(i == 0 ? cloud : levels_.back().cloud, voxel);
+    NeighborIndex index(sampled.points);
+    levels_.push_back({voxel, std::move(sampled), std::move(index)});
+  }
+}
+
+const PyramidLevel& ScanPyramid::level_for(double size_m) const {
+  std::size_t i = 0;
+  while (i + 1 < levels_.size() && levels_[i + 1].voxel_size_m <= size_m) ++i;
+  return levels_[i];
+}
+
+double voxel_size_for(const Points& points, std::size_t num_voxels) {
+  Eigen::Vector3d low = points.front(), high = points.front();
+  for (const auto& p : points) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  double coarse = (high - low).norm();
+  if (!(coarse > 0)) throw InvalidInput("all points of a cloud are equal: no voxel size can be derived");
+  // Coarse to fine by halves, so that the dense grids are only counted near the answer.
+  double fine = coarse;
+  const auto enough = [&](double size) { return count_voxels(points, size) >= std::min(num_voxels, points.size() / 2); };
+  while (!enough(fine)) {
+    coarse = fine;
+    fine /= 2;
+    if (fine < 1e-12 * (high - low).norm()) break;
+  }
+  for (int i = 0; i < 4; ++i) {
+    const double middle = std::sqrt(coarse * fine);
+    (enough(middle) ? fine : coarse) = middle;
+  }
+  return fine;
+}
+
+}  // namespace tcm_icp
