@@ -1,0 +1,5 @@
+#include "tcm_icp/registration/linear_program.hpp"
+
+#include <gtest/gtest.h>
+
+TEST(L1, Stub) {}
