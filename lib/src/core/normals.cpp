@@ -6,6 +6,7 @@
 #include <string>
 
 #include "tcm_icp/core/error.hpp"
+#include "tcm_icp/core/even_sample.hpp"
 #include "tcm_icp/core/parallel.hpp"
 
 namespace tcm_icp {
@@ -82,11 +83,10 @@ NormalEstimate estimate_normals(const Points& points, const NeighborIndex& index
 
 double median_spacing(const Points& points, const NeighborIndex& index) {
   if (points.size() < 2) return 0;
-  const std::size_t step = std::max<std::size_t>(1, points.size() / kSpacingSamples);
   std::vector<double> distances;
   std::vector<Neighbor> neighbors;
-  for (std::size_t i = 0; i < points.size(); i += step) {
-    index.nearest_k(points[i], 2, neighbors);
+  for (const auto& p : even_sample(points, kSpacingSamples)) {
+    index.nearest_k(p, 2, neighbors);
     distances.push_back(std::sqrt(neighbors.back().squared_distance_m2));
   }
   const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);

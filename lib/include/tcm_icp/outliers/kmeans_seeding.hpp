@@ -1,0 +1,32 @@
+#pragma once
+// First centroids for k-means, well apart from each other (paper, section III.A).
+
+#include <cstddef>
+
+#include "tcm_icp/core/cloud.hpp"
+#include "tcm_icp/core/neighbor_index.hpp"
+#include "tcm_icp/core/random.hpp"
+
+namespace tcm_icp {
+
+struct KMeansSeeds {
+  Points centroids;             ///< points of the cloud, pairwise farther apart than the radius
+  std::size_t num_covered = 0;  ///< points of the cloud within the radius of a centroid
+};
+
+/// A random point becomes a centroid and all points within `radius_m` of it are taken away; repeated among the rest
+/// until there are `max_centroids`, or no point is left.
+/// @param index  of `points`
+/// @throws InvalidOptions  if the radius is not positive or max_centroids is 0
+/// Cost: one sphere query a centroid.
+KMeansSeeds seed_kmeans(const Points& points, const NeighborIndex& index, double radius_m, std::size_t max_centroids,
+                        Rng& rng);
+
+/// The radius [m] with which about `num_clusters` spheres tile the surface: the smallest of a geometric series (steps
+/// of 2^(1/4), from the point spacing up) whose spheres cover 95 % of the points. The last twentieth does not count:
+/// stray points need a sphere each, and would set the radius. Found on an even sample of 4,096 points; scales and turns
+/// with the cloud.
+/// @throws InvalidInput  if all points are equal, or there are none
+double seeding_radius(const Points& points, std::size_t num_clusters, Rng& rng);
+
+}  // namespace tcm_icp

@@ -1,0 +1,78 @@
+#pragma once
+// Which points of a scan are outliers: decided once on the bounded working cloud, then asked for every raw point.
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+#include "tcm_icp/core/cloud.hpp"
+#include "tcm_icp/core/random.hpp"
+
+namespace tcm_icp {
+
+enum class OutlierMethod {
+  kKMeans,    ///< the paper's: far from every k-means centroid
+  kDistance,  ///< far from its nearest neighbours (CGAL::remove_outliers)
+  kLof,       ///< much sparser than its neighbours' neighbourhoods (local outlier factor)
+  kNone
+};
+
+/// Lengths and counts that are 0 are derived from the scan; docs/decisions/0004-outlier-threshold.md says how.
+struct OutlierOptions {
+  OutlierMethod method = OutlierMethod::kKMeans;
+  int kmeans_clusters = 0;     ///< >= 0; k. 0: sqrt(N / 2) spheres tile the surface, and what they leave is seeded too
+  double kmeans_radius_m = 0;  ///< [m] >= 0; sphere of the seeding
+  double kmeans_threshold_m = 0;   ///< [m] >= 0; points farther than this from every centroid are outliers
+  int kmeans_max_iterations = 10;  ///< >= 0
+  int num_neighbors = 16;          ///< >= 2; of kDistance and kLof
+  double distance_factor = 10;     ///< > 1; kDistance: root mean square distance to the neighbours, in average spacings
+  double lof_threshold = 4;        ///< > 1; kLof: 1 is as dense as the neighbours
+  void validate() const;           ///< throws InvalidOptions
+};
+
+struct OutlierSummary {
+  OutlierMethod method = OutlierMethod::kNone;
+  std::size_t num_clusters = 0;         ///< kKMeans: centroids after the seeding
+  std::size_t num_struck_clusters = 0;  ///< kKMeans: of these, too small to vouch for their own points
+  double radius_m = 0;                  ///< [m] kKMeans
+  double threshold = 0;                 ///< kKMeans, kDistance: [m]; kLof: a ratio
+  int num_iterations = 0;               ///< kKMeans
+  std::size_t num_outliers = 0;         ///< points of the working cloud
+};
+
+/// A decision about points in the frame of the working cloud it was learned from. Copies share one state. Thread-safe.
+class OutlierRule {
+ public:
+  struct Impl;
+
+  /// The rule that keeps every point.
+  OutlierRule();
+  OutlierRule(std::shared_ptr<const Impl> impl, OutlierSummary summary);
+
+  /// kKMeans: O(log k); otherwise one look-up. A point that is not finite is an outlier.
+  bool is_outlier(const Eigen::Vector3d& p) const;
+  const OutlierSummary& summary() const { return summary_; }
+
+ private:
+  std::shared_ptr<const Impl> impl_;
+  OutlierSummary summary_;
+};
+
+/// Learns the rule from the working cloud: one mean point per voxel.
+///
+/// - kKMeans: outlier = farther than the threshold from every centroid that counts. A stray point can become its own
+///   centroid, at distance 0; so a cluster with fewer than 1 % of the points of a typical one is struck off and its
+///   points are judged by the next centroid. A sparse far end near others of its kind stays: it has larger clusters, or
+///   is within the threshold of one.
+/// - kDistance, kLof: the points of the voxel of an outlying working point are outliers.
+///
+/// @param voxel_size_m  [m] edge of the working cloud's voxels; only kDistance and kLof use it
+/// @throws InvalidInput  if the cloud is empty or not finite, or (kDistance, kLof) the voxel size is not positive
+/// @throws InvalidOptions
+/// A cloud of fewer than 3 points, or of equal points, has no outliers. Cost O(N log N); the result does not depend on
+/// num_threads.
+OutlierRule learn_outlier_rule(const Points& working_cloud, double voxel_size_m, const OutlierOptions& options,
+                               Rng& rng, int num_threads);
+
+}  // namespace tcm_icp

@@ -1,0 +1,63 @@
+#include "tcm_icp/outliers/kmeans.hpp"
+
+#include <string>
+#include <utility>
+
+#include "tcm_icp/core/error.hpp"
+#include "tcm_icp/core/neighbor_index.hpp"
+#include "tcm_icp/core/parallel.hpp"
+
+namespace tcm_icp {
+namespace {
+
+// Writes each point's cluster and distance.
+void assign(const Points& points, KMeansResult& result, int num_threads) {
+  const NeighborIndex index(result.centroids);
+  parallel_for(num_threads, points.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      if (!points[i].allFinite()) throw InvalidInput("k-means was given a point that is not finite");
+      const Neighbor n = index.nearest(points[i]);
+      result.cluster[i] = n.index;
+      result.squared_distance_m2[i] = n.squared_distance_m2;
+    }
+  });
+}
+
+void move_centroids(const Points& points, KMeansResult& result) {
+  Points sum(result.centroids.size(), Eigen::Vector3d::Zero());
+  for (std::size_t i = 0; i < points.size(); ++i) sum[result.cluster[i]] += points[i];
+  for (std::size_t c = 0; c < sum.size(); ++c) {
+    if (result.size[c] > 0) result.centroids[c] = sum[c] / static_cast<double>(result.size[c]);
+  }
+}
+
+void count_sizes(KMeansResult& result) {
+  result.size.assign(result.centroids.size(), 0);
+  for (const std::uint32_t c : result.cluster) ++result.size[c];
+}
+
+}  // namespace
+
+KMeansResult kmeans(const Points& points, const Points& initial_centroids, int max_iterations, int num_threads) {
+  if (initial_centroids.empty()) throw InvalidInput("k-means needs at least one centroid to start from");
+  if (max_iterations < 0) {
+    throw InvalidOptions("max_iterations is " + std::to_string(max_iterations) + "; it must be at least 0");
+  }
+  KMeansResult result;
+  result.centroids = initial_centroids;
+  result.cluster.resize(points.size());
+  result.squared_distance_m2.resize(points.size());
+  assign(points, result, num_threads);
+  count_sizes(result);
+  while (!result.converged && result.num_iterations < max_iterations) {
+    const std::vector<std::uint32_t> before = result.cluster;
+    move_centroids(points, result);
+    assign(points, result, num_threads);
+    count_sizes(result);
+    ++result.num_iterations;
+    result.converged = result.cluster == before;
+  }
+  return result;
+}
+
+}  // namespace tcm_icp

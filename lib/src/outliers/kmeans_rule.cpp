@@ -1,0 +1,68 @@
+#include <algorithm>
+#include <cmath>
+
+#include "outliers/outlier_detectors.hpp"
+#include "tcm_icp/outliers/kmeans.hpp"
+#include "tcm_icp/outliers/kmeans_seeding.hpp"
+
+namespace tcm_icp::detail {
+namespace {
+
+constexpr double kMinClusters = 8, kMaxClusters = 512;  // that tile the surface
+constexpr std::size_t kMaxSeedsPerCluster = 8;  // stray points need seeds too; beyond it they are seedless outliers
+constexpr double kStruckShare = 0.01;           // of a typical cluster's points
+constexpr double kFenceMads = 8;                // in standard deviations, were the distances normal
+constexpr double kMadToSigma = 1.4826;
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+// Median + 8 robust standard deviations of the points' distances to their centroids: beyond twice the seeding radius.
+double distance_fence(const KMeansResult& clusters) {
+  std::vector<double> distances;
+  for (const double squared : clusters.squared_distance_m2) distances.push_back(std::sqrt(squared));
+  const double middle = median(distances);
+  for (double& d : distances) d = std::abs(d - middle);
+  return middle + kFenceMads * kMadToSigma * median(std::move(distances));
+}
+
+// The size of the cluster that a random point lies in; clusters of single stray points do not pull it down.
+double typical_size(const std::vector<std::size_t>& sizes) {
+  double sum = 0, sum_of_squares = 0;
+  for (const std::size_t n : sizes) {
+    sum += static_cast<double>(n);
+    sum_of_squares += static_cast<double>(n) * static_cast<double>(n);
+  }
+  return sum_of_squares / sum;
+}
+
+}  // namespace
+
+KMeansRule learn_kmeans_rule(const Points& points, const OutlierOptions& options, Rng& rng, int num_threads,
+                             OutlierSummary& summary) {
+  const bool derive_k = options.kmeans_clusters == 0;
+  const double tiles = std::clamp(std::sqrt(static_cast<double>(points.size()) / 2), kMinClusters, kMaxClusters);
+  const auto k = derive_k ? static_cast<std::size_t>(tiles) : static_cast<std::size_t>(options.kmeans_clusters);
+  summary.radius_m = options.kmeans_radius_m > 0 ? options.kmeans_radius_m : seeding_radius(points, k, rng);
+
+  const NeighborIndex index(points);
+  const KMeansSeeds seeds = seed_kmeans(points, index, summary.radius_m, derive_k ? kMaxSeedsPerCluster * k : k, rng);
+  const KMeansResult clusters = kmeans(points, seeds.centroids, options.kmeans_max_iterations, num_threads);
+
+  KMeansRule rule;
+  rule.threshold_m = options.kmeans_threshold_m > 0 ? options.kmeans_threshold_m : distance_fence(clusters);
+  const double least = kStruckShare * typical_size(clusters.size);
+  for (std::size_t c = 0; c < clusters.centroids.size(); ++c) {
+    if (static_cast<double>(clusters.size[c]) >= least) rule.centroids.push_back(clusters.centroids[c]);
+  }
+  summary.num_clusters = clusters.centroids.size();
+  summary.num_struck_clusters = clusters.centroids.size() - rule.centroids.size();
+  summary.threshold = rule.threshold_m;
+  summary.num_iterations = clusters.num_iterations;
+  return rule;
+}
+
+}  // namespace tcm_icp::detail

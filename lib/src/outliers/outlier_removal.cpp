@@ -1,0 +1,110 @@
+#include "tcm_icp/outliers/outlier_removal.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <unordered_set>
+#include <utility>
+
+#include "outliers/outlier_detectors.hpp"
+#include "tcm_icp/core/error.hpp"
+#include "tcm_icp/core/neighbor_index.hpp"
+#include "tcm_icp/core/voxel_sampler.hpp"
+
+namespace tcm_icp {
+namespace {
+
+void require(bool holds, const char* field, double value, const char* bound) {
+  if (!holds) {
+    throw InvalidOptions(std::string(field) + " is " + std::to_string(value) + "; it must be " + bound);
+  }
+}
+
+bool all_equal(const Points& points) {
+  return std::all_of(points.begin(), points.end(), [&](const auto& p) { return p == points.front(); });
+}
+
+}  // namespace
+
+struct OutlierRule::Impl {
+  // kKMeans
+  std::optional<NeighborIndex> centroids;
+  double squared_threshold_m2 = 0;
+  // kDistance and kLof; membership only, so the order of a hash decides nothing
+  std::unordered_set<VoxelKey, VoxelKeyHash> outlier_voxels;
+  double voxel_size_m = 0;
+};
+
+OutlierRule::OutlierRule() = default;
+OutlierRule::OutlierRule(std::shared_ptr<const Impl> impl, OutlierSummary summary)
+    : impl_(std::move(impl)), summary_(summary) {}
+
+bool OutlierRule::is_outlier(const Eigen::Vector3d& p) const {
+  if (!p.allFinite()) return true;
+  if (!impl_) return false;
+  if (impl_->centroids) return impl_->centroids->nearest(p).squared_distance_m2 > impl_->squared_threshold_m2;
+  return !impl_->outlier_voxels.empty() && impl_->outlier_voxels.contains(voxel_key(p, impl_->voxel_size_m));
+}
+
+void OutlierOptions::validate() const {
+  require(kmeans_clusters >= 0, "kmeans_clusters", kmeans_clusters, "at least 0");
+  require(kmeans_radius_m >= 0 && std::isfinite(kmeans_radius_m), "kmeans_radius_m", kmeans_radius_m, "at least 0");
+  require(kmeans_threshold_m >= 0 && std::isfinite(kmeans_threshold_m), "kmeans_threshold_m", kmeans_threshold_m,
+          "at least 0");
+  require(kmeans_max_iterations >= 0, "kmeans_max_iterations", kmeans_max_iterations, "at least 0");
+  require(num_neighbors >= 2, "num_neighbors", num_neighbors, "at least 2");
+  require(distance_factor > 1 && std::isfinite(distance_factor), "distance_factor", distance_factor, "above 1");
+  require(lof_threshold > 1 && std::isfinite(lof_threshold), "lof_threshold", lof_threshold, "above 1");
+}
+
+namespace {
+
+std::vector<std::size_t> neighborhood_outliers(const Points& points, const OutlierOptions& options, int num_threads,
+                                               OutlierSummary& summary) {
+  if (options.method == OutlierMethod::kDistance) {
+    return detail::distance_outliers(points, options.num_neighbors, options.distance_factor, summary.threshold);
+  }
+  summary.threshold = options.lof_threshold;
+  const std::vector<double> factors = detail::local_outlier_factors(points, options.num_neighbors, num_threads);
+  std::vector<std::size_t> outliers;
+  for (std::size_t i = 0; i < factors.size(); ++i) {
+    if (factors[i] > options.lof_threshold) outliers.push_back(i);
+  }
+  return outliers;
+}
+
+}  // namespace
+
+OutlierRule learn_outlier_rule(const Points& working_cloud, double voxel_size_m, const OutlierOptions& options,
+                               Rng& rng, int num_threads) {
+  options.validate();
+  if (working_cloud.empty()) throw InvalidInput("outliers of an empty cloud cannot be told");
+  for (const auto& p : working_cloud) {
+    if (!p.allFinite()) throw InvalidInput("the working cloud has a point that is not finite");
+  }
+  OutlierSummary summary;
+  summary.method = options.method;
+  if (options.method == OutlierMethod::kNone || working_cloud.size() < 3 || all_equal(working_cloud)) {
+    return OutlierRule(nullptr, summary);
+  }
+
+  auto impl = std::make_shared<OutlierRule::Impl>();
+  if (options.method == OutlierMethod::kKMeans) {
+    const auto rule = detail::learn_kmeans_rule(working_cloud, options, rng, num_threads, summary);
+    impl->centroids.emplace(rule.centroids);
+    impl->squared_threshold_m2 = rule.threshold_m * rule.threshold_m;
+  } else {
+    if (!(voxel_size_m > 0)) throw InvalidInput("the working cloud's voxel size must be positive");
+    impl->voxel_size_m = voxel_size_m;
+    for (const std::size_t i : neighborhood_outliers(working_cloud, options, num_threads, summary)) {
+      impl->outlier_voxels.insert(voxel_key(working_cloud[i], voxel_size_m));
+    }
+  }
+  const OutlierRule rule(impl, summary);
+  summary.num_outliers = static_cast<std::size_t>(
+      std::count_if(working_cloud.begin(), working_cloud.end(), [&](const auto& p) { return rule.is_outlier(p); }));
+  return OutlierRule(impl, summary);
+}
+
+}  // namespace tcm_icp
