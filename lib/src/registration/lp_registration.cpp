@@ -5,9 +5,9 @@
 #include <numbers>
 #include <string>
 
+#include "lp_figures.hpp"
 #include "tcm_icp/core/error.hpp"
 #include "tcm_icp/core/rigid_transform.hpp"
-#include "tcm_icp/registration/l1_fit.hpp"
 
 namespace tcm_icp {
 namespace {
@@ -56,7 +56,7 @@ void LpRegistrationOptions::validate() const {
   lp.validate();
 }
 
-Termination lp_point_to_plane_step(const std::vector<Correspondence>& matches, const LpOptions& options,
+Termination lp_point_to_plane_step(const std::vector<Correspondence>& matches, const L1FitOptions& options,
                                    Eigen::Isometry3d& T_target_source, LpFigures& figures, double& step_m) {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   for (const auto& m : matches) centre += m.source;
@@ -77,14 +77,8 @@ Termination lp_point_to_plane_step(const std::vector<Correspondence>& matches, c
     d[i] = -m.normal.dot(m.source - m.target);
   }
   const L1FitResult fit = fit_l1(A, d, options);
-  figures.num_programs += 1;
-  figures.num_pivots += fit.pivots;
-  figures.seconds += fit.seconds;
-  figures.objective = fit.objective;
-  figures.relative_duality_gap = std::fmax(figures.relative_duality_gap, fit.duality_gap);
-  if (fit.status != LpStatus::kOptimal) {
-    return fit.status == LpStatus::kInfeasible ? Termination::kLpInfeasible : Termination::kLpFailed;
-  }
+  add_to(figures, fit);
+  if (!fit.optimal()) return termination_of(fit.status);
   Twist twist = fit.x;
   twist.head<3>() /= radius;
   step_m = fit.x.norm();

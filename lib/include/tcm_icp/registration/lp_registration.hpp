@@ -3,7 +3,7 @@
 
 #include "tcm_icp/core/run_context.hpp"
 #include "tcm_icp/registration/correspondences.hpp"
-#include "tcm_icp/registration/linear_program.hpp"
+#include "tcm_icp/registration/l1_fit.hpp"
 #include "tcm_icp/registration/registration_result.hpp"
 #include "tcm_icp/registration/scan_pyramid.hpp"
 
@@ -18,14 +18,14 @@ struct LpRegistrationOptions {
   int max_iterations = 60;            ///< >= 1
   double convergence_share = 0.002;   ///< stop when a step moves the points less than this share of the final gate (rms)
   int min_correspondences = 12;       ///< >= 6
-  LpOptions lp;
+  L1FitOptions lp;
   void validate() const;  ///< throws InvalidOptions naming field, value and bound
 };
 
 /// One L1 point-to-plane step: the twist about `centre` that minimises sum |n . (p + w x (p - centre) + t - q)|, 6 unknowns,
 /// solved exactly through its dual linear program. Rotations are scaled by the matches' RMS radius.
 /// @param iterations  what the step did is added to its LP figures
-Termination lp_point_to_plane_step(const std::vector<Correspondence>& matches, const LpOptions& options,
+Termination lp_point_to_plane_step(const std::vector<Correspondence>& matches, const L1FitOptions& options,
                                    Eigen::Isometry3d& T_target_source, LpFigures& figures, double& step_m);
 
 /// Registers `source` to `target` from T_init: correspondences within a gate on distance and normal that shrinks from
