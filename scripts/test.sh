@@ -12,11 +12,13 @@ junit=build/release/ctest-junit.xml
 # that says itself that it skips is skipped.
 closing_line() {
   awk '
-    /<testcase /            { ++total }
-    /status="fail"/         { ++failed }
-    /status="disabled"/     { ++skipped }
-    /status="notrun"/       { ++not_run }
-    /<skipped message="SKIP_/ { ++skipped; --not_run }
+    /^[ \t]*<testcase / {
+      ++total
+      if (/ status="fail"/) ++failed
+      if (/ status="disabled"/) ++skipped
+      if (/ status="notrun"/) ++not_run
+    }
+    /^[ \t]*<skipped message="SKIP_/ { ++skipped; --not_run }
     END {
       failed += not_run
       printf "%d passed, %d failed", total - failed - skipped, failed
