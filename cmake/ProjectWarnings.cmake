@@ -8,6 +8,9 @@ if(TCM_ICP_WARNINGS_AS_ERRORS)
   target_compile_options(tcm_icp_dev_flags INTERFACE -Werror)
 endif()
 if(TCM_ICP_SANITIZE)
-  target_compile_options(tcm_icp_dev_flags INTERFACE -fsanitize=${TCM_ICP_SANITIZE} -fno-omit-frame-pointer)
+  target_compile_options(tcm_icp_dev_flags INTERFACE
+    -fsanitize=${TCM_ICP_SANITIZE} -fno-omit-frame-pointer
+    # Undefined behaviour ends the test instead of printing a line that nobody reads.
+    -fno-sanitize-recover=all)
   target_link_options(tcm_icp_dev_flags INTERFACE -fsanitize=${TCM_ICP_SANITIZE})
 endif()

@@ -1,0 +1,72 @@
+#!/usr/bin/env bash
+# Installs what building tcm-icp needs on Debian 12, and only what is missing: with everything there it changes nothing
+# and needs neither root nor network.
+set -euo pipefail
+
+usage() {
+  cat <<'TEXT'
+Usage: install_dependencies.sh [--tests] [--checks] [--benchmarks]
+  --tests       also what the tests need (GoogleTest)
+  --checks      also what the format and script checks need (clang-format, shellcheck)
+  --benchmarks  also what the benchmarks compare with (Google Benchmark, nanoflann, PCL: more than 1 GB)
+TCM_ICP_SKIP_INSTALL=1 turns the script off: for systems other than Debian, where the libraries came another way.
+TEXT
+}
+
+# GMP, MPFR and Boost's headers come with libcgal-dev.
+packages=(g++ cmake ninja-build ccache libcgal-dev libeigen3-dev libglpk-dev libboost-program-options-dev libtbb-dev
+          nlohmann-json3-dev)
+while (($# > 0)); do
+  case $1 in
+    --tests) packages+=(libgtest-dev) ;;
+    --checks) packages+=(clang-format shellcheck) ;;
+    --benchmarks) packages+=(libbenchmark-dev libnanoflann-dev libpcl-dev) ;;
+    -h | --help) usage; exit 0 ;;
+    *) usage >&2; exit 1 ;;
+  esac
+  shift
+done
+
+if [[ ${TCM_ICP_SKIP_INSTALL:-0} == 1 ]]; then
+  exit 0
+fi
+if ! command -v apt-get >/dev/null || ! command -v dpkg-query >/dev/null; then
+  {
+    echo "install_dependencies.sh: this system has no apt-get. Install what these Debian 12 packages hold by other means,"
+    echo "then set TCM_ICP_SKIP_INSTALL=1 to go on without this step:"
+    printf '  %s\n' "${packages[@]}"
+  } >&2
+  exit 1
+fi
+
+missing=()
+for package in "${packages[@]}"; do
+  if [[ $(dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null) != installed ]]; then
+    missing+=("$package")
+  fi
+done
+if ((${#missing[@]} == 0)); then
+  exit 0
+fi
+
+as_root=()
+if (($(id -u) != 0)); then
+  if ! command -v sudo >/dev/null; then
+    {
+      echo "install_dependencies.sh: there is no sudo; ask root to run"
+      echo "  apt-get update && apt-get install --no-install-recommends ${missing[*]}"
+    } >&2
+    exit 1
+  fi
+  as_root=(sudo)
+  # sudo asks at the terminal itself; without one nobody can type a password, so it fails instead of waiting.
+  { : </dev/tty; } 2>/dev/null || as_root+=(-n)
+fi
+
+apt_get() {
+  ${as_root[@]+"${as_root[@]}"} env DEBIAN_FRONTEND=noninteractive \
+    apt-get -q -o Acquire::Retries=3 -o DPkg::Lock::Timeout=300 "$@"
+}
+echo "Installing ${missing[*]}"
+apt_get update
+apt_get install --yes --no-install-recommends "${missing[@]}"
