@@ -1,0 +1,149 @@
+#include "tcm_icp/io/pose_io.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string_view>
+
+#include "pose_json.hpp"
+#include "tcm_icp/core/error.hpp"
+#include "tcm_icp/core/rigid_transform.hpp"
+
+namespace tcm_icp {
+namespace {
+
+// In the order of ScanStatus.
+constexpr std::array<std::string_view, 3> kStatusNames = {"reference", "registered", "unregistered"};
+
+std::string digits17(double value) {
+  std::array<char, 32> text;
+  const auto result = std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general, 17);
+  return {text.data(), result.ptr};
+}
+
+/// The numbers of one row of a matrix.
+std::string row_text(const Eigen::Isometry3d& T, int row, std::string_view separator) {
+  std::string text;
+  for (int column = 0; column < 4; ++column) {
+    if (column > 0) text += separator;
+    text += digits17(T.matrix()(row, column));
+  }
+  return text;
+}
+
+std::string json_string(std::string_view text) {
+  return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+/// A matrix on one line of JSON.
+std::string json_matrix(const Eigen::Isometry3d& T, const std::string& file) {
+  if (!is_rigid(T.matrix(), 1e-9)) throw InvalidInput("the pose of '" + file + "' is not rigid to 1e-9");
+  std::string text;
+  for (int row = 0; row < 4; ++row) {
+    text += row == 0 ? "[[" : ", [";
+    text += row_text(T, row, ", ") + "]";
+  }
+  return text + "]";
+}
+
+std::string json_scan(const ScanPose& scan) {
+  const bool placed = scan.status != ScanStatus::kUnregistered;
+  std::string text = "  {\"file\": " + json_string(scan.file) +
+                     ", \"status\": " + json_string(kStatusNames[static_cast<std::size_t>(scan.status)]) +
+                     ",\n   \"pose\": " + (placed ? json_matrix(scan.T_reference_scan, scan.file) : "null") + ",\n";
+  if (scan.pose_in_component) {
+    text += "   \"pose_in_component\": " + json_matrix(*scan.pose_in_component, scan.file) + ",\n";
+  }
+  return text + "   \"component\": " + std::to_string(scan.component) + ", \"verdict\": " + json_string(scan.verdict) +
+         ", \"reason\": " + json_string(scan.reason) + "}";
+}
+
+void write_text(const std::filesystem::path& path, const std::string& text) {
+  std::ofstream stream(path, std::ios::binary | std::ios::trunc);
+  stream << text;
+  stream.close();
+  if (!stream) throw OutputError(path, "cannot be written", "check the folder's permissions and the disk's free space");
+}
+
+/// A field of an entry, of the kind of T; InputError where it is missing or of another kind.
+template <typename T>
+T field_of(const nlohmann::json& entry, const char* key, const std::filesystem::path& path, const std::string& place) {
+  try {
+    return entry.at(key).get<T>();
+  } catch (const nlohmann::json::exception&) {
+    throw InputError(path, place, std::string("has no usable '") + key + "'", "give a poses.json that tcm-icp wrote");
+  }
+}
+
+ScanPose read_scan(const nlohmann::json& entry, const std::filesystem::path& path, const std::string& place) {
+  ScanPose scan;
+  scan.file = field_of<std::string>(entry, "file", path, place);
+  const auto status = field_of<std::string>(entry, "status", path, place);
+  const auto at = std::find(kStatusNames.begin(), kStatusNames.end(), status);
+  if (at == kStatusNames.end()) {
+    throw InputError(path, place, "has the unknown status '" + status + "'",
+                     "reference, registered and unregistered are known");
+  }
+  scan.status = static_cast<ScanStatus>(at - kStatusNames.begin());
+  const auto pose = pose_of(entry, "pose", path, place);
+  if (pose.has_value() != (scan.status != ScanStatus::kUnregistered)) {
+    throw InputError(path, place, pose ? "is unregistered, but has a pose" : "has no pose, but is not unregistered",
+                     "give a poses.json that tcm-icp wrote");
+  }
+  if (pose) scan.T_reference_scan = *pose;
+  scan.pose_in_component = pose_of(entry, "pose_in_component", path, place);
+  scan.component = field_of<int>(entry, "component", path, place);
+  scan.verdict = field_of<std::string>(entry, "verdict", path, place);
+  scan.reason = field_of<std::string>(entry, "reason", path, place);
+  return scan;
+}
+
+}  // namespace
+
+void write_pose_file(const std::filesystem::path& path, const PoseFile& poses) {
+  std::string text = "{\"schema\": 1, \"reference\": " + json_string(poses.reference) + ",\n \"scans\": [";
+  for (std::size_t i = 0; i < poses.scans.size(); ++i) text += (i == 0 ? "\n" : ",\n") + json_scan(poses.scans[i]);
+  write_text(path, text + "\n ]}\n");
+}
+
+PoseFile read_pose_file(const std::filesystem::path& path) {
+  const nlohmann::json document = read_json_file(path);
+  const auto& scans = scans_of(document, path);
+  if (field_of<int>(document, "schema", path, "") != 1) {
+    throw InputError(path, "", "is not of schema 1", "read it with the version of tcm-icp that wrote it");
+  }
+  PoseFile poses;
+  poses.reference = field_of<std::string>(document, "reference", path, "");
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    poses.scans.push_back(read_scan(scans[i], path, "scans[" + std::to_string(i) + "]"));
+  }
+  return poses;
+}
+
+std::vector<std::optional<Eigen::Isometry3d>> read_initial_poses(const std::filesystem::path& path,
+                                                                 const std::vector<std::string>& files) {
+  const nlohmann::json document = read_json_file(path);
+  const auto& scans = scans_of(document, path);
+  std::vector<std::optional<Eigen::Isometry3d>> poses(files.size());
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    const std::string place = "scans[" + std::to_string(i) + "]";
+    const std::string file = scans[i]["file"];
+    const auto at = std::find(files.begin(), files.end(), file);
+    if (at == files.end()) {
+      throw InputError(path, place, "names '" + file + "', which is not among the scans",
+                       "name that scan on the command line, or remove the entry");
+    }
+    poses[static_cast<std::size_t>(at - files.begin())] = pose_of(scans[i], "pose", path, place);
+  }
+  return poses;
+}
+
+void write_transform(const std::filesystem::path& path, const Eigen::Isometry3d& T) {
+  std::string text;
+  for (int row = 0; row < 4; ++row) text += row_text(T, row, " ") + "\n";
+  write_text(path, text);
+}
+
+}  // namespace tcm_icp

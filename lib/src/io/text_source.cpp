@@ -1,0 +1,195 @@
+#include "text_source.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cstring>
+#include <utility>
+
+#include "fields.hpp"
+#include "scalar.hpp"
+#include "tcm_icp/core/error.hpp"
+
+namespace tcm_icp {
+namespace {
+
+/// The delimiter of a line: a semicolon before a comma, because with decimal commas both stand in it.
+char delimiter_of(std::string_view line) {
+  if (line.find(';') != std::string_view::npos) return ';';
+  return line.find(',') != std::string_view::npos ? ',' : ' ';
+}
+
+std::size_t comment_prefix(std::string_view line) {
+  if (line.starts_with('#')) return line.find_first_not_of('#');
+  return line.starts_with("//") ? 2 : 0;
+}
+
+std::string lower_case(std::string_view text) {
+  std::string lower(text);
+  for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return lower;
+}
+
+/// A name as a PLY property may have it: what is not a letter, digit or one of _.- becomes '_'.
+std::string attribute_name(std::string_view text) {
+  std::string name;
+  for (const char c : text) {
+    const bool keeps = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '.' || c == '-';
+    if (c != '"') name += keeps ? c : '_';
+  }
+  return name;
+}
+
+}  // namespace
+
+TextSource::TextSource(const std::filesystem::path& path) : input_(path) {
+  const std::byte* const bom = input_.peek(3);
+  if (bom && std::memcmp(bom, "\xEF\xBB\xBF", 3) == 0) input_.consume(3);
+  read_start();
+  name_attributes();
+}
+
+void TextSource::fail(const std::string& problem, const std::string& remedy) const {
+  throw InputError(input_.path(), input_.line_place(), problem, remedy);
+}
+
+void TextSource::read_start() {
+  std::string_view line;
+  while (input_.next_line(line)) {
+    line = trimmed(line);
+    if (line.empty() || take_header(line) || take_count(line)) continue;
+    return take_first_record(line);
+  }
+  check_count();
+}
+
+/// A line of names, or a comment; false for a line of numbers.
+bool TextSource::take_header(std::string_view line) {
+  const std::size_t prefix = comment_prefix(line);
+  if (prefix == std::string_view::npos) return true;
+  split_fields(line.substr(prefix), delimiter_of(line), fields_);
+  const bool is_record = prefix == 0 && !fields_.empty() && parse_number(fields_[0]).has_value();
+  if (is_record) return false;
+  std::vector<std::string> names, axes;
+  for (const auto field : fields_) {
+    names.push_back(attribute_name(field));
+    axes.push_back(lower_case(names.back()));
+  }
+  std::array<std::size_t, 3> columns{};
+  bool has_axes = true;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto at = std::find(axes.begin(), axes.end(), std::string(1, static_cast<char>('x' + axis)));
+    columns[axis] = static_cast<std::size_t>(at - axes.begin());
+    has_axes = has_axes && at != axes.end();
+  }
+  if (has_axes && header_.empty()) {
+    header_ = std::move(names);
+    axis_columns_ = columns;
+    header_is_comment_ = prefix != 0;
+  } else if (prefix == 0) {
+    fail("begins with " + quoted(fields_.empty() ? line : fields_[0]) + ", which is neither a number nor a header",
+         "a header names the columns x, y and z; put # before a comment");
+  }
+  return true;
+}
+
+/// A whole number alone on a line before the points is their count.
+bool TextSource::take_count(std::string_view line) {
+  std::uint64_t count = 0;
+  const auto [rest, error] = std::from_chars(line.data(), line.data() + line.size(), count);
+  if (error != std::errc() || rest != line.data() + line.size()) return false;
+  if (promised_) fail("is a second count line", "remove it");
+  promised_ = count;
+  return true;
+}
+
+void TextSource::take_first_record(std::string_view line) {
+  delimiter_ = delimiter_of(line);
+  split_fields(line, delimiter_, fields_);
+  if (fields_.size() < 3) {
+    fail("has " + std::to_string(fields_.size()) + " columns, but a point has x, y and z",
+         "separate columns by blanks, tabs, commas or semicolons");
+  }
+  if (header_is_comment_ && header_.size() != fields_.size()) {  // "# x y z are in metres" is no header after all
+    header_.clear();
+    axis_columns_ = {0, 1, 2};
+  }
+  if (!header_.empty() && header_.size() != fields_.size()) {
+    fail("has " + std::to_string(fields_.size()) + " columns, but the header names " + std::to_string(header_.size()),
+         "make them agree, or remove the header");
+  }
+  num_columns_ = fields_.size();
+  parse_record(line);
+  has_pending_ = true;
+}
+
+void TextSource::name_attributes() {
+  const std::size_t count = num_columns_ > 0 ? num_columns_ : header_.size();
+  for (std::size_t column = 0; column < count; ++column) {
+    if (std::find(axis_columns_.begin(), axis_columns_.end(), column) != axis_columns_.end()) continue;
+    const auto is_taken = [&](const std::string& name) {
+      return name.empty() || std::any_of(attributes_.begin(), attributes_.end(),
+                                         [&](const Attribute& attribute) { return attribute.name == name; });
+    };
+    std::string name = header_.empty() ? std::string() : header_[column];
+    if (is_taken(name)) name = "column_" + std::to_string(column + 1);
+    while (is_taken(name)) name += '_';
+    attributes_.push_back({std::move(name), ScalarType::kFloat64});
+    attribute_columns_.push_back(column);
+  }
+}
+
+bool TextSource::next_content_line(std::string_view& line) {
+  while (input_.next_line(line)) {
+    line = trimmed(line);
+    if (!line.empty() && comment_prefix(line) == 0) return true;
+  }
+  return false;
+}
+
+void TextSource::parse_record(std::string_view line) {
+  split_fields(line, delimiter_, fields_);
+  if (fields_.size() != num_columns_) {
+    fail("has " + std::to_string(fields_.size()) + " columns, but the first point has " + std::to_string(num_columns_),
+         "the file is damaged or truncated: write or copy it again");
+  }
+  values_.resize(num_columns_);
+  for (std::size_t column = 0; column < num_columns_; ++column) {
+    const auto value = parse_number(fields_[column]);
+    if (!value) {
+      fail("column " + std::to_string(column + 1) + " holds " + quoted(fields_[column]) + ", which is not a number",
+           fields_[column].find(',') != std::string_view::npos ? "write decimal points, not commas"
+                                                               : "mend the line, or put # before it");
+    }
+    values_[column] = *value;
+  }
+}
+
+bool TextSource::next(Eigen::Vector3d& point, std::byte* attributes) {
+  if (!std::exchange(has_pending_, false)) {
+    std::string_view line;
+    if (!next_content_line(line)) {
+      check_count();
+      return false;
+    }
+    parse_record(line);
+  }
+  ++num_read_;
+  if (promised_ && num_read_ > *promised_) check_count();
+  for (int axis = 0; axis < 3; ++axis) point[axis] = values_[axis_columns_[static_cast<std::size_t>(axis)]];
+  if (!attributes) return true;
+  for (std::size_t i = 0; i < attribute_columns_.size(); ++i) {
+    std::memcpy(attributes + i * sizeof(double), &values_[attribute_columns_[i]], sizeof(double));
+  }
+  return true;
+}
+
+void TextSource::check_count() const {
+  if (!promised_ || num_read_ == *promised_) return;
+  fail((num_read_ < *promised_ ? "ends after " + std::to_string(num_read_) + " points"
+                               : std::string("is one point more")) +
+           ", but the count line promises " + std::to_string(*promised_),
+       "write or copy the file again, or remove the count line");
+}
+
+}  // namespace tcm_icp
