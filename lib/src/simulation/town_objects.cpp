@@ -57,7 +57,7 @@ void add_tree(TriangleMesh& mesh, const Isometry3d& T_world_tree, Rng& rng) {
   add_frustum(mesh, T_world_tree * Translation3d(0, 0, -kFooting_m),
               {trunk_radius, 0.6 * trunk_radius, kFooting_m + trunk_height + 0.5 * crown_half_height, 10}, 0.35);
   // Leaves in proportion to the crown's surface, so that small and large crowns let through the same share of light.
-  const int leaves = static_cast<int>(60 * crown_radius * (crown_radius + crown_half_height));
+  const int leaves = static_cast<int>(110 * crown_radius * (crown_radius + crown_half_height));
   add_foliage(mesh, T_world_tree * Translation3d(0, 0, trunk_height + 0.7 * crown_half_height),
               {Vector3d(crown_radius, 0.9 * crown_radius, crown_half_height), leaves, 0.25}, 0.4, rng);
 }

@@ -93,14 +93,18 @@ class Town {
   /// Four points with two bends, and kerb stones with gaps (drives) on both sides.
   void lay_street() {
     const double h = options_.half_size_m;
+    Points bends;
     for (const Vector2d& p :
          {Vector2d(-0.85, -0.35), Vector2d(-0.25, 0.12), Vector2d(0.3, -0.1), Vector2d(0.85, 0.4)}) {
       const double dx = uniform(rng_, -0.06, 0.06);
       const double dy = uniform(rng_, -0.1, 0.1);
-      scene_.path.push_back(ground_.lift(h * (p + Vector2d(dx, dy))));
+      bends.push_back({h * (p.x() + dx), h * (p.y() + dy), 0});
     }
-    const double length = path_length_m(scene_.path);
+    const double length = path_length_m(bends);
     for (double s = 0; s < length; s += 1) {
+      scene_.path.push_back(ground_.lift(along_path(bends, s).position.head<2>()));
+    }
+    for (double s = 0; s < length - 1; s += 1) {
       const PathPoint here = along_path(scene_.path, s);
       plan_.take({here.position.head<2>(), here.heading_rad, {1, kHalfRoad_m}});
       for (const double side : {-1.0, 1.0}) {
@@ -155,7 +159,7 @@ class Town {
     house.window_width_m = uniform(rng_, 0.8, 1.5);
     house.cell_width_m = uniform(rng_, 2.1, 3.4);
     house.reflectivity = uniform(rng_, 0.4, 0.8);
-    const Footprint site = random_site(house.half_size_m, kHalfRoad_m + house.half_size_m.y(), 22);
+    const Footprint site = random_site(house.half_size_m, kHalfRoad_m + house.half_size_m.y(), 24);
     if (!claim(site, 1.5)) return false;
     add_house(scene_.mesh, standing(site), house, rng_);
     return true;

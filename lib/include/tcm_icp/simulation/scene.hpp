@@ -14,7 +14,7 @@ struct Scene {
 
 struct TownOptions {
   double half_size_m = 30;  ///< [m] >= 10; the built-up square reaches this far from its middle along x and y
-  int num_buildings = 9;    ///< 0..1000, gabled houses with recessed windows
+  int num_buildings = 8;    ///< 0..1000, gabled houses with recessed windows
   int num_sheds = 4;        ///< 0..1000, garages: boxes with flat roofs
   int num_trees = 14;       ///< 0..1000
   int num_bushes = 8;       ///< 0..1000
