@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "command.hpp"
+#include "option_binding.hpp"
 #include "tcm_icp/core/error.hpp"
 #include "tcm_icp/evaluation/metrics.hpp"
 #include "tcm_icp/io/pose_io.hpp"
@@ -30,7 +31,7 @@ po::options_description describe(Request& r) {
       ("poses", po::value(&r.poses)->required(), "poses.json of 'tcm-icp register'")                       //
       ("truth", po::value(&r.truth)->required(), "truth.json of the scene")                                //
       ("json", po::value(&r.json), "write the figures here as well")                                       //
-      ("min-overlap", po::value(&r.options.min_overlap)->default_value(r.options.min_overlap),
+      ("min-overlap", bind_option(&r.options.min_overlap),
        "true overlap (0..1) from which a pair counts for pair recall")  //
       ("help,h", "this text");
   return what;

@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "command.hpp"
+#include "option_binding.hpp"
 #include "output_folder.hpp"
 #include "tcm_icp/core/error.hpp"
 #include "tcm_icp/simulation/scene_set.hpp"
@@ -25,31 +26,29 @@ struct Request {
 po::options_description describe(Request& r) {
   SceneSetOptions& s = r.scenes;
   ScannerOptions& scanner = s.scanner;
-  const auto with_default = [](auto* value) { return po::value(value)->default_value(*value); };
   po::options_description what("What to simulate", 110);
-  what.add_options()("scene", with_default(&r.scene), "the scene: town")                       //
-      ("scans", with_default(&s.num_scans), "number of stations along the scene's path")       //
-      ("seed", with_default(&r.context.seed), "the same seed gives the same bytes")            //
-      ("threads", with_default(&r.context.num_threads), "changes the time, never the result")  //
-      ("out", po::value(&r.out)->required(), "folder to make: 000.ply ..., truth.json")        //
-      ("force", "replace an earlier result in that folder")                                    //
+  what.add_options()("scene", bind_option(&r.scene), "the scene: town")                       //
+      ("scans", bind_option(&s.num_scans), "number of stations along the scene's path")       //
+      ("seed", bind_option(&r.context.seed), "the same seed gives the same bytes")            //
+      ("threads", bind_option(&r.context.num_threads), "changes the time, never the result")  //
+      ("out", po::value(&r.out)->required(), "folder to make: 000.ply ..., truth.json")       //
+      ("force", "replace an earlier result in that folder")                                   //
       ("initial-guess", po::value(&r.initial_guess)->multitoken()->value_name("DEG METRES"),
        "also write initial_poses.json: the truth, off by 0.6 to 1 times this turn and shift; the first scan exact")  //
       ("help,h", "this text");
   po::options_description sensor("Scanner", 110);
-  sensor.add_options()("step", with_default(&scanner.step_deg), "[deg] between neighbouring rays")                    //
-      ("min-elevation", with_default(&scanner.min_elevation_deg), "[deg] lowest ray")                                 //
-      ("max-elevation", with_default(&scanner.max_elevation_deg), "[deg] highest ray")                                //
-      ("max-range", with_default(&scanner.max_range_m), "[m] farther surfaces give no return")                        //
-      ("range-noise", with_default(&scanner.range_noise_m), "[m] standard deviation along the ray")                   //
-      ("angular-noise", with_default(&scanner.angular_noise_deg), "[deg] standard deviation of a ray's direction")    //
-      ("thinning", with_default(&scanner.thinning_voxel_m), "[m] keep one return a voxel of this size; 0 keeps all")  //
-      ("isolated", with_default(&scanner.isolated_share), "share of returns in mid air");
+  sensor.add_options()("step", bind_option(&scanner.step_deg), "[deg] between neighbouring rays")                    //
+      ("min-elevation", bind_option(&scanner.min_elevation_deg), "[deg] lowest ray")                                 //
+      ("max-elevation", bind_option(&scanner.max_elevation_deg), "[deg] highest ray")                                //
+      ("max-range", bind_option(&scanner.max_range_m), "[m] farther surfaces give no return")                        //
+      ("range-noise", bind_option(&scanner.range_noise_m), "[m] standard deviation along the ray")                   //
+      ("angular-noise", bind_option(&scanner.angular_noise_deg), "[deg] standard deviation of a ray's direction")    //
+      ("thinning", bind_option(&scanner.thinning_voxel_m), "[m] keep one return a voxel of this size; 0 keeps all")  //
+      ("isolated", bind_option(&scanner.isolated_share), "share of returns in mid air");
   po::options_description frames("Frames of the scans", 110);
-  frames.add_options()("tilt", with_default(&s.max_tilt_deg),
+  frames.add_options()("tilt", bind_option(&s.max_tilt_deg),
                        "[deg] largest tilt of a scan's frame; its heading is any")  //
-      ("shift", with_default(&s.max_shift_m),
-       "[m] farthest a scan's origin may lie from its scanner; 0 keeps it there");
+      ("shift", bind_option(&s.max_shift_m), "[m] farthest a scan's origin may lie from its scanner; 0 keeps it there");
   return what.add(sensor).add(frames);
 }
 

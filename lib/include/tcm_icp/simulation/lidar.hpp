@@ -20,7 +20,7 @@ struct ScannerOptions {
   double angular_noise_deg = 0.01;  ///< [deg] >= 0, standard deviation of a ray's true direction about the recorded one
   double full_return_signal = 0.1;  ///< > 0; reflectivity times cosine of incidence from which a return is certain;
                                     ///< below it the chance falls in proportion (glass, grazing incidence)
-  double thinning_voxel_m = 0.1;    ///< [m] >= 0; of each voxel's returns the first is kept; 0 keeps all
+  double thinning_voxel_m = 0.15;   ///< [m] >= 0; of each voxel's returns the first is kept; 0 keeps all
   double isolated_share = 0.002;    ///< 0..0.5, returns in mid air (dust, birds, rain) as a share of the kept ones
   void validate() const;            ///< throws InvalidOptions
 };
