@@ -6,6 +6,7 @@
 #include <string>
 
 #include "simulation/draw.hpp"
+#include "simulation/ground.hpp"
 #include "simulation/site_plan.hpp"
 #include "simulation/town_objects.hpp"
 #include "tcm_icp/core/error.hpp"
@@ -19,7 +20,6 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr double kHalfRoad_m = 3.2;
-constexpr double kGroundReflectivity = 0.3;
 constexpr int kAttempts = 3000;
 
 void require_count(const char* field, int value) {
@@ -28,42 +28,13 @@ void require_count(const char* field, int value) {
   }
 }
 
-/// Gently uneven ground: a slope and three long waves.
-class Ground {
- public:
-  explicit Ground(Rng& rng) {
-    for (double& s : slope_) s = uniform(rng, -0.015, 0.015);
-    for (Wave& w : waves_) {
-      const double length = uniform(rng, 12, 45);
-      const double heading = uniform(rng, 0, 2 * std::numbers::pi);
-      w.number = 2 * std::numbers::pi / length * Vector2d(std::cos(heading), std::sin(heading));
-      w.phase = uniform(rng, 0, 2 * std::numbers::pi);
-      w.height_m = 0.004 * length;
-    }
-  }
-
-  double height_m(const Vector2d& at) const {
-    double z = slope_.dot(at);
-    for (const Wave& w : waves_) z += w.height_m * std::sin(w.number.dot(at) + w.phase);
-    return z;
-  }
-  Vector3d lift(const Vector2d& at) const { return {at.x(), at.y(), height_m(at)}; }
-
- private:
-  struct Wave {
-    Vector2d number;
-    double phase, height_m;
-  };
-  Vector2d slope_;
-  Wave waves_[3];
-};
-
 class Town {
  public:
   Town(const TownOptions& options, Rng& rng) : options_(options), rng_(rng), ground_(rng) {}
 
   Scene build() {
-    lay_ground();
+    // Ground goes on beyond the houses, so that the scanner sees a horizon of returns and not an edge.
+    ground_.add_to(scene_.mesh, 2 * options_.half_size_m);
     lay_street();
     place("num_buildings", options_.num_buildings, [&] { return try_house(); });
     place("num_sheds", options_.num_sheds, [&] { return try_shed(); });
@@ -76,20 +47,6 @@ class Town {
   }
 
  private:
-  /// Ground goes on beyond the houses, so that the scanner sees a horizon of returns and not an edge.
-  void lay_ground() {
-    const double reach = 2 * options_.half_size_m;
-    const int cells = static_cast<int>(std::ceil(2 * reach));
-    const auto at = [&](int i, int j) {
-      return ground_.lift({2 * reach * i / cells - reach, 2 * reach * j / cells - reach});
-    };
-    for (int i = 0; i < cells; ++i) {
-      for (int j = 0; j < cells; ++j) {
-        add_quad(scene_.mesh, at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1), kGroundReflectivity);
-      }
-    }
-  }
-
   /// Four points with two bends, and kerb stones with gaps (drives) on both sides.
   void lay_street() {
     const double h = options_.half_size_m;
