@@ -18,6 +18,7 @@ expect() {
     failures=$((failures + 1))
   fi
 }
+# shellcheck disable=SC2317  # expect calls it
 evaluate() { "$exe" evaluate --scans "$folder" --truth "$folder/truth.json" "$@"; }
 
 # pose_of X: the identity, shifted along x.

@@ -19,9 +19,11 @@ expect() {
   fi
 }
 same() { diff -r "$1" "$2" || failures=$((failures + 1)); }
+# shellcheck disable=SC2317  # expect calls it
 simulate() { "$exe" simulate --step 2 --seed 5 --scans 2 "$@"; }
 
 expect 0 '001.ply' simulate --out "$folder/a" --threads 1 --initial-guess 5 0.5
+# shellcheck disable=SC2012  # the names are ours
 [ "$(ls "$folder/a" | tr '\n' ' ')" = '000.ply 001.ply initial_poses.json truth.json ' ] || failures=$((failures + 1))
 expect 0 '001.ply' simulate --out "$folder/b/" --threads 2 --initial-guess 5 0.5
 same "$folder/a" "$folder/b"

@@ -57,11 +57,9 @@ class Town {
       const double dy = uniform(rng_, -0.1, 0.1);
       bends.push_back({h * (p.x() + dx), h * (p.y() + dy), 0});
     }
-    const double length = path_length_m(bends);
-    for (double s = 0; s < length; s += 1) {
-      scene_.path.push_back(ground_.lift(along_path(bends, s).position.head<2>()));
-    }
-    for (double s = 0; s < length - 1; s += 1) {
+    const int length_m = static_cast<int>(path_length_m(bends));
+    for (int s = 0; s <= length_m; ++s) scene_.path.push_back(ground_.lift(along_path(bends, s).position.head<2>()));
+    for (int s = 0; s < length_m; ++s) {
       const PathPoint here = along_path(scene_.path, s);
       plan_.take({here.position.head<2>(), here.heading_rad, {1, kHalfRoad_m}});
       for (const double side : {-1.0, 1.0}) {
