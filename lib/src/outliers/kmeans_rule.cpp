@@ -8,9 +8,8 @@
 namespace tcm_icp::detail {
 namespace {
 
-constexpr double kMinClusters = 8, kMaxClusters = 512;  // that tile the surface
-constexpr std::size_t kMaxSeedsPerCluster = 8;  // stray points need seeds too; beyond it they are seedless outliers
-constexpr double kStruckShare = 0.01;           // of a typical cluster's points
+constexpr double kPointsPerCluster = 64;        // eight by eight on a surface: enough to tell it from a stray
+constexpr double kStruckShare = 0.05;           // of a typical cluster's points
 constexpr double kFenceMads = 8;                // in standard deviations, were the distances normal
 constexpr double kMadToSigma = 1.4826;
 
@@ -44,12 +43,12 @@ double typical_size(const std::vector<std::size_t>& sizes) {
 KMeansRule learn_kmeans_rule(const Points& points, const OutlierOptions& options, Rng& rng, int num_threads,
                              OutlierSummary& summary) {
   const bool derive_k = options.kmeans_clusters == 0;
-  const double tiles = std::clamp(std::sqrt(static_cast<double>(points.size()) / 2), kMinClusters, kMaxClusters);
+  const double tiles = std::ceil(static_cast<double>(points.size()) / kPointsPerCluster);
   const auto k = derive_k ? static_cast<std::size_t>(tiles) : static_cast<std::size_t>(options.kmeans_clusters);
   summary.radius_m = options.kmeans_radius_m > 0 ? options.kmeans_radius_m : seeding_radius(points, k, rng);
 
   const NeighborIndex index(points);
-  const KMeansSeeds seeds = seed_kmeans(points, index, summary.radius_m, derive_k ? kMaxSeedsPerCluster * k : k, rng);
+  const KMeansSeeds seeds = seed_kmeans(points, index, summary.radius_m, derive_k ? points.size() : k, rng);
   const KMeansResult clusters = kmeans(points, seeds.centroids, options.kmeans_max_iterations, num_threads);
 
   KMeansRule rule;

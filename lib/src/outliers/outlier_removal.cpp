@@ -21,6 +21,25 @@ void require(bool holds, const char* field, double value, const char* bound) {
   }
 }
 
+// Clusters and neighbourhoods are to weigh surface, not how often the scanner swept it: near the scanner a raw cloud is
+// a thousand times denser than at its far end, which would then look like strays. One mean point per voxel flattens
+// that.
+constexpr std::size_t kMaxThinnedPoints = 32768;
+
+struct ThinnedCloud {
+  Points points;
+  double voxel_size_m;  ///< the working cloud's times a power of two: voxels nest
+};
+
+ThinnedCloud thin(const Points& working_cloud, double voxel_size_m) {
+  ThinnedCloud thinned{working_cloud, voxel_size_m};
+  while (thinned.points.size() > kMaxThinnedPoints) {
+    thinned.voxel_size_m *= 2;
+    thinned.points = voxel_downsample({std::move(thinned.points), {}}, thinned.voxel_size_m).points;
+  }
+  return thinned;
+}
+
 bool all_equal(const Points& points) {
   return std::all_of(points.begin(), points.end(), [&](const auto& p) { return p == points.front(); });
 }
@@ -89,16 +108,17 @@ OutlierRule learn_outlier_rule(const Points& working_cloud, double voxel_size_m,
     return OutlierRule(nullptr, summary);
   }
 
+  if (!(voxel_size_m > 0)) throw InvalidInput("the working cloud's voxel size must be positive");
+  const ThinnedCloud thinned = thin(working_cloud, voxel_size_m);
   auto impl = std::make_shared<OutlierRule::Impl>();
   if (options.method == OutlierMethod::kKMeans) {
-    const auto rule = detail::learn_kmeans_rule(working_cloud, options, rng, num_threads, summary);
+    const auto rule = detail::learn_kmeans_rule(thinned.points, options, rng, num_threads, summary);
     impl->centroids.emplace(rule.centroids);
     impl->squared_threshold_m2 = rule.threshold_m * rule.threshold_m;
   } else {
-    if (!(voxel_size_m > 0)) throw InvalidInput("the working cloud's voxel size must be positive");
-    impl->voxel_size_m = voxel_size_m;
-    for (const std::size_t i : neighborhood_outliers(working_cloud, options, num_threads, summary)) {
-      impl->outlier_voxels.insert(voxel_key(working_cloud[i], voxel_size_m));
+    impl->voxel_size_m = thinned.voxel_size_m;
+    for (const std::size_t i : neighborhood_outliers(thinned.points, options, num_threads, summary)) {
+      impl->outlier_voxels.insert(voxel_key(thinned.points[i], thinned.voxel_size_m));
     }
   }
   const OutlierRule rule(impl, summary);
