@@ -21,7 +21,7 @@ enum class OutlierMethod {
 /// Lengths and counts that are 0 are derived from the scan; docs/decisions/0004-outlier-threshold.md says how.
 struct OutlierOptions {
   OutlierMethod method = OutlierMethod::kKMeans;
-  int kmeans_clusters = 0;     ///< >= 0; k. 0: a sphere per 64 points tiles the surface, and what is left is seeded too
+  int kmeans_clusters = 0;     ///< >= 0; k. 0: a sphere per 16 voxels tiles the surface, and what is left is seeded too
   double kmeans_radius_m = 0;  ///< [m] >= 0; sphere of the seeding
   double kmeans_threshold_m = 0;   ///< [m] >= 0; points farther than this from every centroid are outliers
   int kmeans_max_iterations = 10;  ///< >= 0
@@ -61,12 +61,12 @@ class OutlierRule {
 
 /// Learns the rule from the working cloud: one mean point per voxel.
 ///
-/// All methods look at a thinned cloud of at most 32,768 points, one per voxel of voxel_size_m * 2^n, so that they
-/// weigh surface and not how often the scanner swept it: a sparse far end is no outlier.
+/// All methods look at a thinned cloud: voxels of voxel_size_m * 2^n, at most 8,192 of them and four points in each, so
+/// that surface counts and not how often the scanner swept it: a sparse far end is no outlier.
 /// - kKMeans: outlier = farther than the threshold from every centroid that counts. A stray point can become its own
 ///   centroid, at distance 0; so a cluster with fewer than a twentieth of the points of a typical one is struck off,
 ///   and its points are judged by the next centroid.
-/// - kDistance, kLof: all points of a voxel are outliers where its mean point is one.
+/// - kDistance, kLof: what falls into a voxel is an outlier where all the points learned from in it are.
 ///
 /// @param voxel_size_m  [m] edge of the working cloud's voxels
 /// @throws InvalidInput  if the cloud is empty or not finite, or the voxel size is not positive
