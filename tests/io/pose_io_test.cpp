@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include <fstream>
+#include <cmath>
+#include <filesystem>
+#include <limits>
 #include <sstream>
 
 #include "io/temp_files.hpp"
@@ -84,6 +86,9 @@ TEST(PoseIo, AFileThatCannotBeWrittenIsAnError) {
   const TempFolder folder;
   EXPECT_THROW(write_pose_file(folder.path() / "none" / "a.json", some_poses()), OutputError);
   EXPECT_THROW(write_transform(folder.path(), motion(1)), OutputError);
+  if (std::filesystem::exists("/dev/full")) {
+    EXPECT_THROW(write_pose_file("/dev/full", some_poses()), OutputError);
+  }
 }
 
 TEST(PoseIo, InitialPosesComeInTheOrderOfTheScans) {
@@ -126,6 +131,7 @@ TEST(PoseIo, WhatIsWrongIsNamedWithItsPlace) {
       {"", "is not JSON"},
       {"{\"scans\": [\n  nonsense]}", "byte 16: is not JSON"},
       {"{\"scans\": [1e999]}", "beyond the range of double"},
+      {std::string(100000, '['), "is not JSON"},
       {"[]", "has no list 'scans'"},
       {"{\"scans\": 7}", "has no list 'scans'"},
       {"{\"scans\": [{\"pose\": null}]}", "scans[0]: has no text 'file'"},

@@ -119,6 +119,17 @@ TEST(RegisteredPlyWriter, TypesThatDifferAreWidenedToOneThatHoldsBoth) {
   }
 }
 
+TEST(RegisteredPlyWriter, MoreScansThanAShortCanCountGetAWiderIndex) {
+  const TempFolder folder;
+  const auto type_of = [&](std::size_t num_scans) {
+    const auto path = folder.path() / "a.ply";
+    RegisteredPlyWriter(path, std::vector<std::vector<Attribute>>(num_scans), "a.ply").finish();
+    return ScanReader(path).attributes().at(0);
+  };
+  EXPECT_EQ(type_of(65536), (Attribute{"scan", ScalarType::kUInt16}));
+  EXPECT_EQ(type_of(65537), (Attribute{"scan", ScalarType::kUInt32}));
+}
+
 TEST(RegisteredPlyWriter, NormalsTurnWithTheirScan) {
   const TempFolder folder;
   const auto path = folder.path() / "registered.ply";
