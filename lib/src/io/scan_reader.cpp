@@ -41,7 +41,7 @@ struct ScanReader::Impl {
   std::uint64_t num_points = 0, num_dropped = 0;
 };
 
-ScanReader::ScanReader(std::filesystem::path path, ReadAttributes read_attributes)
+ScanReader::ScanReader(const std::filesystem::path& path, ReadAttributes read_attributes)
     : impl_(std::make_unique<Impl>(path, read_attributes)) {}
 ScanReader::~ScanReader() = default;
 ScanReader::ScanReader(ScanReader&&) noexcept = default;
