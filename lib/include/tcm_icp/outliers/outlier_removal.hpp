@@ -18,7 +18,7 @@ enum class OutlierMethod {
   kNone
 };
 
-/// Lengths and counts that are 0 are derived from the scan; docs/decisions/0004-outlier-threshold.md says how.
+/// Lengths and counts that are 0 are derived from the scan; docs/decisions/0005-outlier-threshold.md says how.
 struct OutlierOptions {
   OutlierMethod method = OutlierMethod::kKMeans;
   int kmeans_clusters = 0;     ///< >= 0; k. 0: a sphere per 16 voxels tiles the surface, and what is left is seeded too
