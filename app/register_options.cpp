@@ -116,7 +116,7 @@ po::options_description configurable(RegisterOptions& o, Choices& c) {
       ("annealing.search-steps", value(p.placement.search_steps), "steps of the search where the initial guess fails")
       ("annealing.initial-temperature", value(p.refinement.initial_temperature), "in units of the cost at the start")
       ("annealing.final-temperature", value(p.refinement.final_temperature), "the same, at the end; cooling is geometric")
-      ("adjustment.sweeps", value(p.placement.adjustment_sweeps), "passes over all scans at the fine resolution; 0: none");
+      ("adjustment.steps", value(p.placement.adjustment_steps), "joint steps of all poses at the fine resolution; 0: none");
   main.add(outliers).add(sampling).add(placement);
   return main;
 }

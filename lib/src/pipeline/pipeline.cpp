@@ -215,7 +215,7 @@ class Run {
   void adjust() {
     pairs_ = overlapping_pairs(scans_, T_reference_scan_, placed_, kMinLinkOverlap, context_.num_threads);
     if (paper()) return;
-    adjust_poses(scans_, pairs_, result_.reference, resolutions_, options_, context_, T_reference_scan_);
+    adjust_poses(scans_, pairs_, result_.reference, resolutions_, options_.placement, context_, T_reference_scan_);
   }
 
   void verify() {
@@ -261,7 +261,7 @@ class Run {
   std::vector<Eigen::Isometry3d> T_init_;            // common frame of the initial poses <- local frame
   std::vector<Eigen::Isometry3d> T_reference_scan_;  // local frames
   std::vector<bool> placed_;
-  std::vector<std::pair<std::size_t, std::size_t>> pairs_;
+  ScanPairs pairs_;
 };
 
 }  // namespace

@@ -130,7 +130,7 @@ Json options_json(const PipelineOptions& o, const RunContext& context) {
           {"fine_points", o.placement.fine_points},
           {"held_out_points", o.placement.held_out_points},
           {"search_steps", o.placement.search_steps},
-          {"adjustment_sweeps", o.placement.adjustment_sweeps},
+          {"adjustment_steps", o.placement.adjustment_steps},
           {"descent_steps", o.refinement.descent_steps},
           {"annealing_steps", o.refinement.annealing_steps},
           {"seed", context.seed},

@@ -32,7 +32,7 @@ struct PlacementOptions {
   int fine_points = 3000;          ///< >= 100; and in the finer ones
   int held_out_points = 1500;      ///< >= 100; points kept from every fit, for verification
   int search_steps = 400;          ///< >= 0; annealing steps where the fit from the initial guess fails verification
-  int adjustment_sweeps = 3;       ///< >= 0; passes over all scans at the fine resolution, each against all its neighbours
+  int adjustment_steps = 10;       ///< >= 0; Gauss-Newton steps over all poses at once, at the fine resolution
   void validate() const;           ///< throws InvalidOptions
 };
 
