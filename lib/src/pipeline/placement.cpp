@@ -1,6 +1,7 @@
 #include "placement.hpp"
 
 #include <algorithm>
+#include <Eigen/Eigenvalues>
 #include <array>
 #include <cmath>
 
@@ -16,6 +17,11 @@ namespace {
 constexpr std::array kGateLadder{8.0, 16.0, 4.0, 32.0};
 constexpr double kCoarseFinalGate = 2.0, kFineFinalGate = 1.5;
 constexpr int kSearchPoints = 300;
+
+// Looking for other poses: a grid of 13 x 13 steps of 4 coarse voxels, whose best minima are fitted.
+constexpr int kExploreReach = 6, kExplorePoints = 200, kMaxExplorations = 3;
+constexpr double kExploreStep = 4, kExploreGate = 4;
+constexpr std::size_t kMaxOtherMinima = 3;
 
 Cloud thinned(const Cloud& cloud, int count, std::size_t offset) {
   Cloud out;
@@ -96,6 +102,36 @@ class Placer {
         .T_target_source;
   }
 
+  /// Looks for other poses that fit: the cost is scanned over a grid in the plane of the two weakest translations, the scan
+  /// is fitted again from its best minima, and the pose with the largest consensus wins. Repeated structure (bays of a
+  /// hall, rows of trees) shows here and nowhere else: each of its fits looks right by itself.
+  void explore(Candidate& best, LpFigures& figures) const {
+    double runner_up = 0;
+    for (int round = 0; round < kMaxExplorations; ++round) {
+      const Eigen::Isometry3d T_round = best.fit.T_target_source;
+      for (const Eigen::Isometry3d& T : other_minima(T_round)) {
+        Candidate other;
+        other.fit = fit_at(T, kExploreGate * voxel_m_, figures);
+        if (!other.fit.usable()) continue;
+        const Eigen::Isometry3d apart = best.fit.T_target_source.inverse() * other.fit.T_target_source;
+        if (rms_displacement(apart, scan_.held_out_sample.points) < kExploreStep * voxel_m_ / 2) continue;
+        other.found = true;
+        other.evidence = verify(other.fit.T_target_source);
+        other.verdict = judge(other.evidence);
+        const double mine = best.evidence.consensus(), others = other.evidence.consensus();
+        if (others > mine) {
+          runner_up = mine / others;
+          best = other;
+        } else if (mine > 0) {
+          runner_up = std::max(runner_up, others / mine);
+        }
+      }
+      if (best.fit.T_target_source.isApprox(T_round, 0)) break;
+    }
+    best.evidence.runner_up = runner_up;
+    best.verdict = judge(best.evidence);
+  }
+
   void refine(Candidate& candidate, Rng& rng, MergeRecord& record) const {
     const RefinementOptions& o = options_.refinement;
     const bool descent = o.method == Refinement::kDescent || o.method == Refinement::kDescentThenAnnealing;
@@ -133,6 +169,52 @@ class Placer {
   }
 
  private:
+  // The two directions the scan can be shifted along most freely: eigenvectors of the sum of n n' over its surfaces.
+  std::pair<Eigen::Vector3d, Eigen::Vector3d> weakest_translations(const Eigen::Isometry3d& T) const {
+    Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+    for (const auto& n : scan_.held_out_sample.normals) {
+      const Eigen::Vector3d moved = T.linear() * n;
+      sum += moved * moved.transpose();
+    }
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(sum);
+    return {axes.eigenvectors().col(0), axes.eigenvectors().col(1)};
+  }
+
+  std::vector<Eigen::Isometry3d> other_minima(const Eigen::Isometry3d& T) const {
+    const Cloud points = thinned(scan_.coarse_sample, kExplorePoints, 0);
+    const AlignmentObjective objective(points, merged_.level_for(2 * voxel_m_), voxel_m_, kExploreStep * voxel_m_);
+    const auto [u, v] = weakest_translations(T);
+    const auto at = [&](int i, int j) {
+      return Eigen::Isometry3d(Eigen::Translation3d(kExploreStep * voxel_m_ * (i * u + j * v)) * T);
+    };
+    constexpr int kSide = 2 * kExploreReach + 1;
+    std::array<double, static_cast<std::size_t>(kSide* kSide)> cost{};
+    const auto slot = [](int i, int j) {
+      return static_cast<std::size_t>((i + kExploreReach) * kSide + (j + kExploreReach));
+    };
+    for (int i = -kExploreReach; i <= kExploreReach; ++i) {
+      for (int j = -kExploreReach; j <= kExploreReach; ++j) cost[slot(i, j)] = objective.cost(at(i, j));
+    }
+    std::vector<std::pair<double, Eigen::Isometry3d>> minima;
+    for (int i = -kExploreReach; i <= kExploreReach; ++i) {
+      for (int j = -kExploreReach; j <= kExploreReach; ++j) {
+        if (std::abs(i) <= 1 && std::abs(j) <= 1) continue;  // the pose itself
+        bool lowest = true;
+        for (int di = -1; di <= 1; ++di) {
+          for (int dj = -1; dj <= 1; ++dj) {
+            const bool inside = std::abs(i + di) <= kExploreReach && std::abs(j + dj) <= kExploreReach;
+            lowest = lowest && (!inside || cost[slot(i, j)] <= cost[slot(i + di, j + dj)]);
+          }
+        }
+        if (lowest) minima.emplace_back(cost[slot(i, j)], at(i, j));
+      }
+    }
+    std::stable_sort(minima.begin(), minima.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    std::vector<Eigen::Isometry3d> out;
+    for (std::size_t k = 0; k < std::min(minima.size(), kMaxOtherMinima); ++k) out.push_back(minima[k].second);
+    return out;
+  }
+
   RegistrationResult fit_at(const Eigen::Isometry3d& T_init, double gate_m, LpFigures& figures) const {
     LpRegistrationOptions lp;
     lp.lp = options_.lp;
@@ -182,8 +264,13 @@ Eigen::Isometry3d place_scan(const PreparedScan& scan, const ScanPyramid& merged
     record.reason = "the simplex step found no pose: " + std::string(to_string(best.fit.termination));
     return T_init;
   }
+  placer.explore(best, figures);
+  record.simplex = best.fit;
+  record.simplex.lp = figures;
   placer.refine(best, rng, record);
+  const double runner_up = best.evidence.runner_up;
   record.evidence = placer.verify(best.fit.T_target_source);
+  record.evidence->runner_up = runner_up;
   const Verdict verdict = judge(*record.evidence);
   record.accepted = verdict.accepted;
   record.reason = verdict.reason;

@@ -36,7 +36,8 @@ Json to_json(const AlignmentEvidence& e) {
           {"median_residual_m", e.median_residual_m},
           {"tolerance_m", e.tolerance_m},
           {"slide_m", e.slide_m},
-          {"left_after_slide", e.left_after_slide}};
+          {"left_after_slide", e.left_after_slide},
+          {"runner_up", number(e.runner_up)}};
 }
 
 Json to_json(const RegistrationResult& r) {

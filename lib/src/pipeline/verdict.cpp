@@ -15,7 +15,10 @@ std::string percent(double share) {
 // What is left of the agreement after a slide by four voxels, at most, where a pose is right. On real and simulated scenes
 // right poses leave 0.16 to 0.70 in their weakest direction, wrong ones 0.79 and more, most of them above 1.
 constexpr double kMaxLeftAfterSlide = 0.75;
-constexpr double kMinConsensus = 0.08;
+// Neighbours at random lie within a quarter voxel of the plane, normals agreeing, in 5 to 15 % of cases.
+constexpr double kMinInlierShare = 0.2;
+constexpr double kMaxRunnerUp = 0.85;
+constexpr double kMinConsensus = 0.05;
 constexpr std::size_t kMinAgreeing = 30;
 
 }  // namespace
@@ -32,6 +35,12 @@ Verdict judge(const AlignmentEvidence& evidence) {
   const double agreeing = evidence.consensus() * static_cast<double>(evidence.num_points);
   if (agreeing < static_cast<double>(kMinAgreeing) || evidence.consensus() < kMinConsensus) {
     return {false, "only " + percent(evidence.consensus()) + " of the points agree with the other scans"};
+  }
+  if (evidence.inlier_share < kMinInlierShare) {
+    return {false, "only " + percent(evidence.inlier_share) + " of the overlap is within the noise"};
+  }
+  if (evidence.runner_up > kMaxRunnerUp) {
+    return {false, "ambiguous: another pose nearby has " + percent(evidence.runner_up) + " of the agreement"};
   }
   if (evidence.left_after_slide[0] > kMaxLeftAfterSlide) {
     return {false, "ambiguous: moved along its weakest direction, it still agrees at " +

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <cstddef>
+#include <limits>
 
 #include "tcm_icp/core/cloud.hpp"
 #include "tcm_icp/registration/scan_pyramid.hpp"
@@ -21,6 +22,9 @@ struct AlignmentEvidence {
   /// left) first: 1 where the sliding costs nothing.
   std::array<double, 6> left_after_slide{};
   double slide_m = 0;  ///< [m] rms length of these slides
+  /// Consensus of the best other pose found nearby (structure that repeats), by this pose's: 1 is a tie. 0 where none was
+  /// found; NaN where none was looked for.
+  double runner_up = std::numeric_limits<double>::quiet_NaN();
 
   /// Share of all held-out points that agree.
   double consensus() const { return overlap * inlier_share; }
