@@ -22,59 +22,60 @@ bool all_finite(const Eigen::SparseMatrix<double>& matrix) {
   return true;
 }
 
-// max(lower z, upper z), the most that one variable with reduced cost z can add.
-double most_added(double lower, double upper, double z, double rounding) {
+// max(lower z, upper z), the most that one variable with reduced cost z can add, is z times this. A reduced cost of
+// pure rounding error must not count as infinite where there is no bound.
+double best_bound(double lower, double upper, double z, double rounding) {
   const double bound = z > 0 ? upper : lower;
-  // A reduced cost of pure rounding error must not count as infinite where there is no bound.
-  if (std::isinf(bound)) return std::abs(z) <= rounding ? 0.0 : kInfinity;
-  return bound * z;
+  return std::isinf(bound) && std::abs(z) <= rounding ? 0.0 : bound;
 }
 
-// See weak duality in the header; also |objective|' |y|, the unit in which a sum of this size can be wrong.
-void certify_objective(const LinearProgram& lp, LpSolution& solution) {
+void certify_objective(const LinearProgram& lp, const Eigen::VectorXd& y, const Eigen::VectorXd& row_duals,
+                       LpCertificate& certificate) {
   constexpr double kRounding = 1e-9;  // of the terms a reduced cost is the difference of
-  double dual = lp.rhs.dot(solution.row_duals);
-  double magnitude = 0;
+  double dual = lp.rhs.dot(row_duals);
+  double magnitude = 0;  // the unit in which a sum of this size can be wrong
   for (Eigen::Index j = 0; j < lp.objective.size(); ++j) {
     double z = lp.objective[j];
     double size = std::abs(z);
     for (Eigen::SparseMatrix<double>::InnerIterator it(lp.equations, j); it; ++it) {
-      z -= it.value() * solution.row_duals[it.row()];
-      size += std::abs(it.value() * solution.row_duals[it.row()]);
+      z -= it.value() * row_duals[it.row()];
+      size += std::abs(it.value() * row_duals[it.row()]);
     }
-    dual += most_added(lp.lower[j], lp.upper[j], z, kRounding * size);
-    magnitude += std::abs(lp.objective[j] * solution.y[j]);
+    const double bound = best_bound(lp.lower[j], lp.upper[j], z, kRounding * size);
+    dual += bound * z;
+    magnitude += std::abs(lp.objective[j]) * std::max(std::abs(y[j]), std::isinf(bound) ? 0.0 : std::abs(bound));
   }
-  solution.objective = lp.objective.dot(solution.y);
-  solution.dual_objective = dual;
-  const double gap = std::abs(dual - solution.objective);
-  solution.duality_gap = gap == 0 ? 0 : gap / std::max(magnitude, std::numeric_limits<double>::min());
+  certificate.objective = lp.objective.dot(y);
+  certificate.dual_objective = dual;
+  const double gap = std::abs(dual - certificate.objective);
+  certificate.duality_gap = gap == 0 ? 0 : gap / std::max(magnitude, std::numeric_limits<double>::min());
 }
 
-// Worst violation: of an equation relative to the sum of its absolute terms, of a bound relative to max(1, |bound|).
-void certify_feasibility(const LinearProgram& lp, LpSolution& solution) {
-  const Eigen::VectorXd residual = lp.equations * solution.y - lp.rhs;
-  const Eigen::VectorXd magnitude = lp.equations.cwiseAbs() * solution.y.cwiseAbs() + lp.rhs.cwiseAbs();
+// Worst violation: of an equation relative to sum |coefficient| max(1, |y|), of a bound to max(1, |bound|). The 1 is
+// the usual absolute tolerance of a simplex; without it y = 1e-17 in place of 0 would be infeasible.
+double primal_infeasibility(const LinearProgram& lp, const Eigen::VectorXd& y) {
+  const Eigen::VectorXd residual = lp.equations * y - lp.rhs;
+  const Eigen::VectorXd magnitude = lp.equations.cwiseAbs() * y.cwiseAbs().cwiseMax(1.0) + lp.rhs.cwiseAbs();
   double worst = 0;
   for (Eigen::Index i = 0; i < residual.size(); ++i) {
     if (residual[i] != 0) worst = std::max(worst, std::abs(residual[i]) / magnitude[i]);
   }
-  for (Eigen::Index j = 0; j < solution.y.size(); ++j) {
-    const double below = lp.lower[j] - solution.y[j];
-    const double above = solution.y[j] - lp.upper[j];
+  for (Eigen::Index j = 0; j < y.size(); ++j) {
+    const double below = lp.lower[j] - y[j];
+    const double above = y[j] - lp.upper[j];
     if (below > 0) worst = std::max(worst, below / std::max(1.0, std::abs(lp.lower[j])));
     if (above > 0) worst = std::max(worst, above / std::max(1.0, std::abs(lp.upper[j])));
   }
-  solution.primal_infeasibility = worst;
+  return worst;
 }
 
-void certify(const LinearProgram& lp, const LpOptions& options, LpSolution& solution) {
+// An optimum is one only if its certificate says so.
+void confirm_optimum(const LinearProgram& lp, const LpOptions& options, LpSolution& solution) {
   if (!solution.y.allFinite() || !solution.row_duals.allFinite()) {
     solution.status = LpStatus::kFailed;
     return;
   }
-  certify_objective(lp, solution);
-  certify_feasibility(lp, solution);
+  static_cast<LpCertificate&>(solution) = certify(lp, solution.y, solution.row_duals);
   // Written so that NaN fails.
   const bool holds = solution.duality_gap <= options.max_certificate_error &&
                      solution.primal_infeasibility <= options.max_certificate_error;
@@ -147,6 +148,17 @@ void LinearProgram::validate() const {
   }
 }
 
+LpCertificate certify(const LinearProgram& lp, const Eigen::VectorXd& y, const Eigen::VectorXd& row_duals) {
+  lp.validate();
+  if (y.size() != lp.objective.size() || row_duals.size() != lp.rhs.size()) {
+    throw InvalidInput("certificate of a linear program: sizes of y or row_duals disagree with it");
+  }
+  LpCertificate certificate;
+  certify_objective(lp, y, row_duals, certificate);
+  certificate.primal_infeasibility = primal_infeasibility(lp, y);
+  return certificate;
+}
+
 LpSolution solve(const LinearProgram& lp, const LpOptions& options) {
   options.validate();
   lp.validate();
@@ -159,7 +171,7 @@ LpSolution solve(const LinearProgram& lp, const LpOptions& options) {
   } else {
     solve_with_cgal(lp, options, solution);
   }
-  if (solution.status == LpStatus::kOptimal) certify(lp, options, solution);
+  if (solution.status == LpStatus::kOptimal) confirm_optimum(lp, options, solution);
   solution.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return solution;
 }
