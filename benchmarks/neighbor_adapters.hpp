@@ -37,7 +37,7 @@ class TcmIcpIndex {
 };
 
 #ifdef TCM_ICP_HAVE_NANOFLANN
-/// Doubles, and leaves of 20 points: of 10, 20 and 40 the fastest on these scans.
+/// Doubles, and leaves of 20 points: of 10, 20 and 40 the fastest to query on the whole.
 class NanoflannIndex {
  public:
   explicit NanoflannIndex(const Points& points)

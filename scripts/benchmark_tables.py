@@ -40,7 +40,7 @@ def neighbor_rows(runs):
         per_query = run.get("time_per_query")
         time, unit = (per_query * 1e9, "ns") if per_query else (milliseconds(run), "ms")
         cells.setdefault((operation, int(points)), {})[index] = (time, unit)
-    for (operation, points), times in cells.items():
+    for (operation, points), times in sorted(cells.items()):
         row = [operation.replace("_", " ").replace("0 3", "0.3"), f"{points:,}"]
         ours = times["TcmIcpIndex"][0]
         for index in LIBRARIES:
