@@ -2,6 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstdint>
+#include <string>
+
+#include "io/ply_text.hpp"
 #include "io/temp_files.hpp"
 #include "tcm_icp/core/error.hpp"
 
@@ -49,6 +54,38 @@ TEST(ScanReader, ABlockHoldsAtMostWhatWasAskedForAndNeverNothing) {
   EXPECT_FALSE(reader.read(block, 2));
   EXPECT_EQ(reader.num_points(), 3u);
   EXPECT_EQ(reader.num_dropped(), 3u);
+}
+
+TEST(ScanReader, SmallBlocksGiveTheSameAsOneBlock) {
+  const TempFolder folder;
+  constexpr std::size_t kCount = 200'000;  // several buffers long in every format
+  std::string ascii = test::ply_header("ascii", test::xyz_vertices(kCount) + "property uint i\n");
+  std::string binary =
+      test::ply_header("binary_big_endian", test::xyz_vertices(kCount, "double") + "property uint i\n");
+  std::string text;
+  for (std::uint32_t i = 0; i < kCount; ++i) {
+    const double x = 0.125 * i, y = -0.5 * (i % 1000), z = i % 17 == 0 ? std::nan("") : 3;
+    const std::string line =
+        std::to_string(x) + " " + std::to_string(y) + " " + std::to_string(z) + " " + std::to_string(i) + "\n";
+    ascii += line;
+    text += line;
+    for (const double value : {x, y, z}) binary += test::bytes_of(value, test::Order::kBig);
+    binary += test::bytes_of(i, test::Order::kBig);
+  }
+  for (const auto& path : {folder.write("a.ply", ascii), folder.write("b.ply", binary), folder.write("c.xyz", text)}) {
+    const auto whole = read_whole(path);
+    ASSERT_EQ(whole.block.size() + whole.num_dropped, kCount);
+    EXPECT_EQ(whole.num_dropped, (kCount + 16) / 17);
+    ScanReader reader(path);
+    PointBlock block, joined;
+    while (reader.read(block, 777)) {
+      joined.points.insert(joined.points.end(), block.points.begin(), block.points.end());
+      joined.attributes.insert(joined.attributes.end(), block.attributes.begin(), block.attributes.end());
+    }
+    EXPECT_EQ(joined.points, whole.block.points) << path;
+    EXPECT_EQ(joined.attributes, whole.block.attributes) << path;
+    EXPECT_EQ(joined.points[1000], Eigen::Vector3d(0.125 * 1063, -0.5 * 63, 3)) << path;  // 63 of 1063 were dropped
+  }
 }
 
 }  // namespace

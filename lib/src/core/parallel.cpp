@@ -1,6 +1,7 @@
 #include "tcm_icp/core/parallel.hpp"
 
 #include <tbb/blocked_range.h>
+#include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -14,7 +15,8 @@ void parallel_for(int num_threads, std::size_t count, const std::function<void(s
     body(0, count);
     return;
   }
-  tbb::task_arena arena(num_threads);
+  // More threads than processors gain nothing, and TBB would say so on stderr.
+  tbb::task_arena arena(std::min(num_threads, tbb::info::default_concurrency()));
   const std::size_t grain = std::max<std::size_t>(1, count / (8 * static_cast<std::size_t>(num_threads)));
   arena.execute([&] {
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, grain),

@@ -9,12 +9,26 @@
 
 namespace tcm_icp {
 
-InputBuffer::InputBuffer(std::filesystem::path path) : path_(std::move(path)), buffer_(2 * kMaxLine) {
+namespace {
+
+/// Twice the longest line, so that a whole one always fits beside what is left of the buffer; small files need less.
+std::size_t buffer_size(const std::filesystem::path& path) {
+  constexpr std::size_t kLargest = 2 * InputBuffer::kMaxLine;
+  std::error_code error;
+  const std::uintmax_t size = std::filesystem::file_size(path, error);
+  if (error || size == 0) return kLargest;  // files of the kernel say 0 and hold something
+  return static_cast<std::size_t>(std::min<std::uintmax_t>(size, kLargest));
+}
+
+}  // namespace
+
+InputBuffer::InputBuffer(std::filesystem::path path) : path_(std::move(path)) {
   std::error_code error;
   const auto status = std::filesystem::status(path_, error);
   if (!std::filesystem::exists(status)) throw InputError(path_, "", "there is no such file", "check the path");
   if (std::filesystem::is_directory(status)) throw InputError(path_, "", "is a folder", "name the files in it");
   if (!std::filesystem::is_regular_file(status)) throw InputError(path_, "", "is not a regular file", "copy it to one");
+  buffer_.resize(buffer_size(path_));
   // Our buffer is the only one: without this every byte is copied twice.
   stream_.rdbuf()->pubsetbuf(nullptr, 0);
   stream_.open(path_, std::ios::binary);

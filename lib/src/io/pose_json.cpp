@@ -1,5 +1,6 @@
 #include "pose_json.hpp"
 
+#include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -14,16 +15,22 @@ namespace {
 constexpr double kRigidOnReading = 1e-3;  // poses typed in with four digits pass, a scaled or sheared matrix does not
 constexpr double kRigid = 1e-9;
 
+bool has_four_entries(const nlohmann::json& value) { return value.is_array() && value.size() == 4; }
+
+bool is_4x4_numbers(const nlohmann::json& rows) {
+  const auto is_number = [](const nlohmann::json& value) { return value.is_number(); };
+  return has_four_entries(rows) && std::all_of(rows.begin(), rows.end(), [&](const nlohmann::json& row) {
+           return has_four_entries(row) && std::all_of(row.begin(), row.end(), is_number);
+         });
+}
+
 Eigen::Matrix4d matrix_of(const nlohmann::json& rows, const std::filesystem::path& path, const std::string& place) {
-  const auto fail = [&] [[noreturn]] () {
+  if (!is_4x4_numbers(rows)) {
     throw InputError(path, place, "the pose is not 4 x 4 numbers", "write it as four rows of four numbers");
-  };
-  if (!rows.is_array() || rows.size() != 4) fail();
+  }
   Eigen::Matrix4d matrix;
   for (std::size_t row = 0; row < 4; ++row) {
-    if (!rows[row].is_array() || rows[row].size() != 4) fail();
     for (std::size_t column = 0; column < 4; ++column) {
-      if (!rows[row][column].is_number()) fail();
       matrix(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(column)) = rows[row][column].get<double>();
     }
   }

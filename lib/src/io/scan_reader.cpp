@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <string>
+#include <system_error>
 #include <utility>
 
 #include "ply_source.hpp"
@@ -19,7 +20,9 @@ std::unique_ptr<ScanSource> open_source(const std::filesystem::path& path) {
   for (const char* const text : {".xyz", ".txt", ".asc", ".pts", ".csv"}) {
     if (extension == text) return std::make_unique<TextSource>(path);
   }
-  if (std::filesystem::is_directory(path)) throw InputError(path, "", "is a folder", "name the files in it");
+  std::error_code unreachable;  // then it is not known to be a folder, and the extension is what there is to say
+  if (std::filesystem::is_directory(path, unreachable))
+    throw InputError(path, "", "is a folder", "name the files in it");
   throw InputError(path, "", "has the unknown extension '" + extension + "'",
                    "scans are read from .ply, .xyz, .txt, .asc, .pts and .csv; convert it to one of them");
 }
@@ -38,7 +41,7 @@ struct ScanReader::Impl {
   std::uint64_t num_points = 0, num_dropped = 0;
 };
 
-ScanReader::ScanReader(std::filesystem::path path, ReadAttributes read_attributes)
+ScanReader::ScanReader(const std::filesystem::path& path, ReadAttributes read_attributes)
     : impl_(std::make_unique<Impl>(path, read_attributes)) {}
 ScanReader::~ScanReader() = default;
 ScanReader::ScanReader(ScanReader&&) noexcept = default;

@@ -24,6 +24,12 @@ std::size_t comment_prefix(std::string_view line) {
   return line.starts_with("//") ? 2 : 0;
 }
 
+/// True for a record, damaged or not: so that 1,5 is told to be no number instead of no header.
+bool begins_like_a_number(std::string_view line) {
+  const std::string_view token = line.substr(0, line.find_first_of(" \t,;"));
+  return line.find_first_of("+-.0123456789") == 0 || parse_number(token).has_value();
+}
+
 std::string lower_case(std::string_view text) {
   std::string lower(text);
   for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
@@ -68,8 +74,7 @@ bool TextSource::take_header(std::string_view line) {
   const std::size_t prefix = comment_prefix(line);
   if (prefix == std::string_view::npos) return true;
   split_fields(line.substr(prefix), delimiter_of(line), fields_);
-  const bool is_record = prefix == 0 && !fields_.empty() && parse_number(fields_[0]).has_value();
-  if (is_record) return false;
+  if (prefix == 0 && begins_like_a_number(line)) return false;
   std::vector<std::string> names, axes;
   for (const auto field : fields_) {
     names.push_back(attribute_name(field));
@@ -87,7 +92,8 @@ bool TextSource::take_header(std::string_view line) {
     axis_columns_ = columns;
     header_is_comment_ = prefix != 0;
   } else if (prefix == 0) {
-    fail("begins with " + quoted(fields_.empty() ? line : fields_[0]) + ", which is neither a number nor a header",
+    fail("begins with " + quoted(line.substr(0, line.find_first_of(" \t,;"))) +
+             ", which is neither a number nor a header",
          "a header names the columns x, y and z; put # before a comment");
   }
   return true;

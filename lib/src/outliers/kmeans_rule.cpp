@@ -8,10 +8,9 @@
 namespace tcm_icp::detail {
 namespace {
 
-constexpr double kMinClusters = 8, kMaxClusters = 512;  // that tile the surface
-constexpr std::size_t kMaxSeedsPerCluster = 8;  // stray points need seeds too; beyond it they are seedless outliers
-constexpr double kStruckShare = 0.01;           // of a typical cluster's points
-constexpr double kFenceMads = 8;                // in standard deviations, were the distances normal
+constexpr double kVoxelsPerCluster = 16;  // four by four on a surface: enough to tell it from a stray
+constexpr double kStruckShare = 0.05;     // of a typical cluster's points; and always a single point
+constexpr double kFenceMads = 8;          // in standard deviations, were the distances normal
 constexpr double kMadToSigma = 1.4826;
 
 double median(std::vector<double> values) {
@@ -41,20 +40,20 @@ double typical_size(const std::vector<std::size_t>& sizes) {
 
 }  // namespace
 
-KMeansRule learn_kmeans_rule(const Points& points, const OutlierOptions& options, Rng& rng, int num_threads,
-                             OutlierSummary& summary) {
+KMeansRule learn_kmeans_rule(const Points& points, std::size_t num_voxels, const OutlierOptions& options, Rng& rng,
+                             int num_threads, OutlierSummary& summary) {
   const bool derive_k = options.kmeans_clusters == 0;
-  const double tiles = std::clamp(std::sqrt(static_cast<double>(points.size()) / 2), kMinClusters, kMaxClusters);
+  const double tiles = std::ceil(static_cast<double>(num_voxels) / kVoxelsPerCluster);
   const auto k = derive_k ? static_cast<std::size_t>(tiles) : static_cast<std::size_t>(options.kmeans_clusters);
   summary.radius_m = options.kmeans_radius_m > 0 ? options.kmeans_radius_m : seeding_radius(points, k, rng);
 
   const NeighborIndex index(points);
-  const KMeansSeeds seeds = seed_kmeans(points, index, summary.radius_m, derive_k ? kMaxSeedsPerCluster * k : k, rng);
+  const KMeansSeeds seeds = seed_kmeans(points, index, summary.radius_m, derive_k ? points.size() : k, rng);
   const KMeansResult clusters = kmeans(points, seeds.centroids, options.kmeans_max_iterations, num_threads);
 
   KMeansRule rule;
   rule.threshold_m = options.kmeans_threshold_m > 0 ? options.kmeans_threshold_m : distance_fence(clusters);
-  const double least = kStruckShare * typical_size(clusters.size);
+  const double least = std::max(2.0, kStruckShare * typical_size(clusters.size));
   for (std::size_t c = 0; c < clusters.centroids.size(); ++c) {
     if (static_cast<double>(clusters.size[c]) >= least) rule.centroids.push_back(clusters.centroids[c]);
   }

@@ -12,7 +12,7 @@ namespace tcm_icp {
 namespace {
 
 constexpr std::size_t kRadiusSamples = 4096;
-constexpr double kCoveredShare = 0.95;
+constexpr double kCoveredShare = 0.5;
 
 // Indices that are still there; drawing and taking away cost O(1).
 class RemainingPoints {
@@ -76,11 +76,14 @@ double seeding_radius(const Points& points, std::size_t num_clusters, Rng& rng) 
   const double spread = sample.empty() ? 0 : largest_distance_from_mean(sample);
   if (!(spread > 0)) throw InvalidInput("a cloud whose points are all equal has no length to derive a radius from");
   const NeighborIndex index(sample);
-  const auto wanted = static_cast<std::size_t>(std::ceil(kCoveredShare * static_cast<double>(sample.size())));
+  const auto share_of = [](std::size_t n) {
+    return static_cast<std::size_t>(std::ceil(kCoveredShare * static_cast<double>(n)));
+  };
+  const std::size_t wanted = share_of(sample.size());
   // From above: far fewer spheres to draw than from below. Twice the spread reaches from any point to any other.
   double radius = 2 * spread;
   for (double smaller = radius; smaller > 0; smaller *= std::exp2(-0.25)) {
-    if (seed_kmeans(sample, index, smaller, num_clusters, rng).num_covered < wanted) break;
+    if (seed_kmeans(sample, index, smaller, share_of(num_clusters), rng).num_covered < wanted) break;
     radius = smaller;
   }
   return radius;

@@ -14,9 +14,10 @@ struct KMeansRule {
   double threshold_m = 0;
 };
 
-/// Fills the summary's clusters, radius, threshold and iterations.
-KMeansRule learn_kmeans_rule(const Points& points, const OutlierOptions& options, Rng& rng, int num_threads,
-                             OutlierSummary& summary);
+/// `points` of capped density lie in `num_voxels` voxels. Fills the summary's clusters, radius, threshold and
+/// iterations.
+KMeansRule learn_kmeans_rule(const Points& points, std::size_t num_voxels, const OutlierOptions& options, Rng& rng,
+                             int num_threads, OutlierSummary& summary);
 
 /// Indices whose root mean square distance to their `num_neighbors` nearest (the point itself among them, as CGAL
 /// counts) is `factor` average spacings or more, ascending. Writes the threshold [m]. Needs >= 3 points that are not

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <unordered_map>
 #include <unordered_set>
 #include <utility>
 
@@ -19,6 +20,33 @@ void require(bool holds, const char* field, double value, const char* bound) {
   if (!holds) {
     throw InvalidOptions(std::string(field) + " is " + std::to_string(value) + "; it must be " + bound);
   }
+}
+
+// Clusters and neighbourhoods are to weigh surface, not how often the scanner swept it: near the scanner a raw cloud is
+// a thousand times denser than at its far end, which would then look like strays. Voxels of about the far end's spacing
+// flatten that; 8,192 of them is a surface of 90 x 90.
+constexpr std::size_t kMaxVoxels = 8192;
+// A voxel on a surface holds many points, a stray point has one to itself: this many count.
+constexpr int kMaxPointsPerVoxel = 4;
+
+struct ThinnedCloud {
+  Points points;  ///< the first few of each voxel
+  std::size_t num_voxels;
+  double voxel_size_m;  ///< the working cloud's times a power of two
+};
+
+ThinnedCloud thin(const Points& working_cloud, double voxel_size_m) {
+  Points means = working_cloud;
+  while (means.size() > kMaxVoxels) {
+    voxel_size_m *= 2;
+    means = voxel_downsample({std::move(means), {}}, voxel_size_m).points;
+  }
+  std::unordered_map<VoxelKey, int, VoxelKeyHash> count;  // looked up only: its order decides nothing
+  Points points;
+  for (const auto& p : working_cloud) {
+    if (count[voxel_key(p, voxel_size_m)]++ < kMaxPointsPerVoxel) points.push_back(p);
+  }
+  return {std::move(points), means.size(), voxel_size_m};
 }
 
 bool all_equal(const Points& points) {
@@ -74,6 +102,22 @@ std::vector<std::size_t> neighborhood_outliers(const Points& points, const Outli
   return outliers;
 }
 
+// Voxels all of whose points are outliers: raw points beside a surface are not lost with a stray one.
+std::unordered_set<VoxelKey, VoxelKeyHash> outlier_voxels(const Points& points,
+                                                          const std::vector<std::size_t>& outliers,
+                                                          double voxel_size_m) {
+  std::vector<bool> is_outlier(points.size(), false);
+  std::unordered_set<VoxelKey, VoxelKeyHash> voxels;
+  for (const std::size_t i : outliers) {
+    is_outlier[i] = true;
+    voxels.insert(voxel_key(points[i], voxel_size_m));
+  }
+  for (std::size_t i = 0; i < points.size() && !voxels.empty(); ++i) {
+    if (!is_outlier[i]) voxels.erase(voxel_key(points[i], voxel_size_m));
+  }
+  return voxels;
+}
+
 }  // namespace
 
 OutlierRule learn_outlier_rule(const Points& working_cloud, double voxel_size_m, const OutlierOptions& options,
@@ -89,17 +133,17 @@ OutlierRule learn_outlier_rule(const Points& working_cloud, double voxel_size_m,
     return OutlierRule(nullptr, summary);
   }
 
+  if (!(voxel_size_m > 0)) throw InvalidInput("the working cloud's voxel size must be positive");
+  const ThinnedCloud thinned = thin(working_cloud, voxel_size_m);
   auto impl = std::make_shared<OutlierRule::Impl>();
   if (options.method == OutlierMethod::kKMeans) {
-    const auto rule = detail::learn_kmeans_rule(working_cloud, options, rng, num_threads, summary);
+    const auto rule = detail::learn_kmeans_rule(thinned.points, thinned.num_voxels, options, rng, num_threads, summary);
     impl->centroids.emplace(rule.centroids);
     impl->squared_threshold_m2 = rule.threshold_m * rule.threshold_m;
   } else {
-    if (!(voxel_size_m > 0)) throw InvalidInput("the working cloud's voxel size must be positive");
-    impl->voxel_size_m = voxel_size_m;
-    for (const std::size_t i : neighborhood_outliers(working_cloud, options, num_threads, summary)) {
-      impl->outlier_voxels.insert(voxel_key(working_cloud[i], voxel_size_m));
-    }
+    impl->voxel_size_m = thinned.voxel_size_m;
+    impl->outlier_voxels = outlier_voxels(
+        thinned.points, neighborhood_outliers(thinned.points, options, num_threads, summary), thinned.voxel_size_m);
   }
   const OutlierRule rule(impl, summary);
   summary.num_outliers = static_cast<std::size_t>(

@@ -41,15 +41,6 @@ int bound_kind(double lower, double upper) {
   return std::isinf(upper) ? GLP_LO : GLP_DB;
 }
 
-// Each variable starts at the bound its objective prefers: dual feasible, so the dual simplex needs no first phase.
-int start_at(double lower, double upper, double objective) {
-  if (lower == upper) return GLP_NS;
-  if (std::isinf(lower) && std::isinf(upper)) return GLP_NF;
-  if (std::isinf(lower)) return GLP_NU;
-  if (std::isinf(upper)) return GLP_NL;
-  return objective > 0 ? GLP_NU : GLP_NL;
-}
-
 // GLPK numbers rows, columns and coefficients from 1.
 void add_column(glp_prob* problem, const LinearProgram& lp, int j, std::vector<int>& rows,
                 std::vector<double>& values) {
@@ -63,7 +54,6 @@ void add_column(glp_prob* problem, const LinearProgram& lp, int j, std::vector<i
   glp_set_mat_col(problem, j + 1, static_cast<int>(rows.size()) - 1, rows.data(), values.data());
   glp_set_obj_coef(problem, j + 1, lp.objective[j]);
   glp_set_col_bnds(problem, j + 1, bound_kind(lp.lower[j], lp.upper[j]), lp.lower[j], lp.upper[j]);
-  glp_set_col_stat(problem, j + 1, start_at(lp.lower[j], lp.upper[j], lp.objective[j]));
 }
 
 Problem create_problem(const LinearProgram& lp) {
@@ -75,7 +65,6 @@ Problem create_problem(const LinearProgram& lp) {
   glp_add_cols(problem.get(), num_columns);
   for (int i = 0; i < num_rows; ++i) {
     glp_set_row_bnds(problem.get(), i + 1, GLP_FX, lp.rhs[i], lp.rhs[i]);
-    glp_set_row_stat(problem.get(), i + 1, GLP_BS);
   }
   std::vector<int> rows;
   std::vector<double> values;

@@ -1,5 +1,6 @@
 #pragma once
-// correspondence(P_i, P_j): how close two clouds are, smaller is closer. The paper leaves it open; docs/decisions/0003.
+// correspondence(P_i, P_j): how close two clouds are, smaller is closer. The paper leaves it open;
+// docs/decisions/0004-correspondence.md.
 
 #include <Eigen/Geometry>
 

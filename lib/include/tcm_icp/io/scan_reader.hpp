@@ -22,7 +22,7 @@ class ScanReader {
   /// is
   ///                         checked all the same, so that a first pass over the coordinates finds every damaged line.
   /// @throws InputError  naming file, place, problem and remedy
-  explicit ScanReader(std::filesystem::path path, ReadAttributes read_attributes = ReadAttributes::kYes);
+  explicit ScanReader(const std::filesystem::path& path, ReadAttributes read_attributes = ReadAttributes::kYes);
   ~ScanReader();
   ScanReader(ScanReader&&) noexcept;
   ScanReader& operator=(ScanReader&&) noexcept;

@@ -23,9 +23,9 @@ KMeansSeeds seed_kmeans(const Points& points, const NeighborIndex& index, double
                         Rng& rng);
 
 /// The radius [m] with which about `num_clusters` spheres tile the surface: the smallest of a geometric series (steps
-/// of 2^(1/4), from the point spacing up) whose spheres cover 95 % of the points. The last twentieth does not count:
-/// stray points need a sphere each, and would set the radius. Found on an even sample of 4,096 points; scales and turns
-/// with the cloud.
+/// of 2^(1/4), down from the extent) with which half as many spheres cover half the points. The other half does not
+/// count, for stray points need a sphere each and would set the radius; also with a quarter of strays it grows by a
+/// half at most. Found on an even sample of 4,096 points; scales and turns with the cloud.
 /// @throws InvalidInput  if all points are equal, or there are none
 double seeding_radius(const Points& points, std::size_t num_clusters, Rng& rng);
 

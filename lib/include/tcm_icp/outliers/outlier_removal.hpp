@@ -18,15 +18,15 @@ enum class OutlierMethod {
   kNone
 };
 
-/// Lengths and counts that are 0 are derived from the scan; docs/decisions/0004-outlier-threshold.md says how.
+/// Lengths and counts that are 0 are derived from the scan; docs/decisions/0005-outlier-threshold.md says how.
 struct OutlierOptions {
   OutlierMethod method = OutlierMethod::kKMeans;
-  int kmeans_clusters = 0;     ///< >= 0; k. 0: sqrt(N / 2) spheres tile the surface, and what they leave is seeded too
+  int kmeans_clusters = 0;     ///< >= 0; k. 0: a sphere per 16 voxels tiles the surface, and what is left is seeded too
   double kmeans_radius_m = 0;  ///< [m] >= 0; sphere of the seeding
   double kmeans_threshold_m = 0;   ///< [m] >= 0; points farther than this from every centroid are outliers
   int kmeans_max_iterations = 10;  ///< >= 0
-  int num_neighbors = 16;          ///< >= 2; of kDistance and kLof
-  double distance_factor = 10;     ///< > 1; kDistance: root mean square distance to the neighbours, in average spacings
+  int num_neighbors = 8;           ///< >= 2; of kDistance and kLof
+  double distance_factor = 10;     ///< > 1; kDistance: rms distance to the neighbours, in typical spacings
   double lof_threshold = 4;        ///< > 1; kLof: 1 is as dense as the neighbours
   void validate() const;           ///< throws InvalidOptions
 };
@@ -61,17 +61,18 @@ class OutlierRule {
 
 /// Learns the rule from the working cloud: one mean point per voxel.
 ///
+/// All methods look at a thinned cloud: voxels of voxel_size_m * 2^n, at most 8,192 of them and four points in each, so
+/// that surface counts and not how often the scanner swept it: a sparse far end is no outlier.
 /// - kKMeans: outlier = farther than the threshold from every centroid that counts. A stray point can become its own
-///   centroid, at distance 0; so a cluster with fewer than 1 % of the points of a typical one is struck off and its
-///   points are judged by the next centroid. A sparse far end near others of its kind stays: it has larger clusters, or
-///   is within the threshold of one.
-/// - kDistance, kLof: the points of the voxel of an outlying working point are outliers.
+///   centroid, at distance 0; so a cluster with fewer than a twentieth of the points of a typical one is struck off,
+///   and its points are judged by the next centroid.
+/// - kDistance, kLof: what falls into a voxel is an outlier where all the points learned from in it are.
 ///
-/// @param voxel_size_m  [m] edge of the working cloud's voxels; only kDistance and kLof use it
-/// @throws InvalidInput  if the cloud is empty or not finite, or (kDistance, kLof) the voxel size is not positive
+/// @param voxel_size_m  [m] edge of the working cloud's voxels
+/// @throws InvalidInput  if the cloud is empty or not finite, or the voxel size is not positive
 /// @throws InvalidOptions
-/// A cloud of fewer than 3 points, or of equal points, has no outliers. Cost O(N log N); the result does not depend on
-/// num_threads.
+/// A cloud of fewer than 3 points, or of equal points, has no outliers, whatever its voxel size. Cost O(N log N); the
+/// result does not depend on num_threads.
 OutlierRule learn_outlier_rule(const Points& working_cloud, double voxel_size_m, const OutlierOptions& options,
                                Rng& rng, int num_threads);
 

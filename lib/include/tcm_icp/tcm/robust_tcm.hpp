@@ -37,7 +37,7 @@ class RobustTcmCloud {
   double quantile_;
 };
 
-/// Robust reading of Eqs. 1-10 (docs/decisions/0002-tcm-frames.md), with b moved by T_a_b:
+/// Robust reading of Eqs. 1-10 (docs/decisions/0003-tcm-frames.md), with b moved by T_a_b:
 ///   f [m^2] = Q_a + Q_b, Q the squared distance to the other cloud that the nearest share of a cloud's points stays
 ///   within.
 ///             The share is quantile * min(1, |other| / |own|), so a small scan that lies inside a large merged cloud

@@ -42,7 +42,7 @@ class TcmCloud {
 double tcm_f(const TcmCloud& a, const TcmCloud& b, const Eigen::Isometry3d& T_a_b = Eigen::Isometry3d::Identity());
 
 /// g = |M - N| [m^2], Eqs. 7-9.
-/// @note The paper prints M - N, whose sign depends on which cloud is named first; docs/decisions/0001-tcm-sign.md.
+/// @note The paper prints M - N, whose sign depends on which cloud is named first; docs/decisions/0002-tcm-sign.md.
 double tcm_g(const TcmCloud& a, const TcmCloud& b);
 
 /// h = 1 / (|a| |b|), Eq. 10.

@@ -1,0 +1,199 @@
+#include "register_options.hpp"
+
+#include <array>
+#include <boost/program_options/parsers.hpp>
+#include <boost/program_options/positional_options.hpp>
+#include <boost/program_options/value_semantic.hpp>
+#include <fstream>
+#include <iomanip>
+#include <limits>
+#include <ostream>
+#include <utility>
+
+#include "tcm_icp/core/error.hpp"
+
+namespace tcm_icp::app {
+namespace {
+
+namespace po = boost::program_options;
+
+// Enumerations stand on the command line by name.
+template <typename Enum, std::size_t N>
+struct Names {
+  const char* option;
+  std::array<std::pair<const char*, Enum>, N> entries;
+
+  Enum parse(const std::string& text) const {
+    std::string all;
+    for (const auto& [name, value] : entries) {
+      if (text == name) return value;
+      all += (all.empty() ? "" : ", ") + std::string(name);
+    }
+    throw InvalidOptions(std::string("--") + option + " '" + text + "': choose one of " + all);
+  }
+  const char* name(Enum wanted) const {
+    for (const auto& [name, value] : entries) {
+      if (value == wanted) return name;
+    }
+    return "";
+  }
+};
+
+constexpr Names<Profile, 2> kProfiles{"profile", {{{"robust", Profile::kRobust}, {"paper", Profile::kPaper}}}};
+constexpr Names<LpSolver, 2> kSolvers{"solver", {{{"glpk", LpSolver::kGlpk}, {"cgal", LpSolver::kCgal}}}};
+constexpr Names<OutlierMethod, 4> kOutlierMethods{"outliers",
+                                                  {{{"kmeans", OutlierMethod::kKMeans},
+                                                    {"distance", OutlierMethod::kDistance},
+                                                    {"lof", OutlierMethod::kLof},
+                                                    {"none", OutlierMethod::kNone}}}};
+constexpr Names<Refinement, 4> kRefinements{"refinement",
+                                            {{{"none", Refinement::kNone},
+                                              {"descent", Refinement::kDescent},
+                                              {"annealing", Refinement::kAnnealing},
+                                              {"both", Refinement::kDescentThenAnnealing}}}};
+
+// What the command line holds as text before it becomes an enumeration.
+struct Choices {
+  std::string profile, solver, outliers, refinement;
+
+  explicit Choices(const PipelineOptions& p)
+      : profile(kProfiles.name(p.profile)),
+        solver(kSolvers.name(p.lp.lp.solver)),
+        outliers(kOutlierMethods.name(p.outliers.method)),
+        refinement(kRefinements.name(p.refinement.method)) {}
+
+  void apply(PipelineOptions& p) const {
+    p.profile = kProfiles.parse(profile);
+    p.lp.lp.solver = kSolvers.parse(solver);
+    p.outliers.method = kOutlierMethods.parse(outliers);
+    p.refinement.method = kRefinements.parse(refinement);
+  }
+};
+
+template <typename T>
+auto* value(T& target) {
+  return po::value<T>(&target)->default_value(target);
+}
+
+// Options that may stand in a file, too.
+po::options_description configurable(RegisterOptions& o, Choices& c) {
+  PipelineOptions& p = o.pipeline;
+  po::options_description main("Method");
+  main.add_options()
+      ("profile", value(c.profile), "robust: past the paper, verified; paper: to the letter")
+      ("init", value(o.initial_poses), "file of initial poses, as poses.json or truth.json has them")
+      ("reference", value(p.reference), "file of the reference scan; empty: the correspondence graph chooses")
+      ("graph-threshold", value(p.graph_threshold), "correspondence measure below which two scans are connected; 0: from the data")
+      ("solver", value(c.solver), "simplex solver: glpk or cgal (exact, slow, for comparison)")
+      ("seed", value(o.seed), "seed of all random numbers")
+      ("threads", value(o.threads), "threads; 0: all of the machine; the result is the same for any number");
+  po::options_description outliers("Outlier removal; lengths in the unit of the scans, 0: from the data");
+  outliers.add_options()
+      ("outliers", value(c.outliers), "kmeans, distance, lof or none")
+      ("outliers.clusters", value(p.outliers.kmeans_clusters), "kmeans: number of clusters k")
+      ("outliers.radius", value(p.outliers.kmeans_radius_m), "kmeans: radius r of the seeding spheres")
+      ("outliers.threshold", value(p.outliers.kmeans_threshold_m), "kmeans: points farther from every centroid are outliers")
+      ("outliers.neighbors", value(p.outliers.num_neighbors), "distance, lof: number of neighbours")
+      ("outliers.distance-factor", value(p.outliers.distance_factor), "distance: outliers are this many average spacings away")
+      ("outliers.lof-threshold", value(p.outliers.lof_threshold), "lof: outliers are this much sparser than their neighbours");
+  po::options_description sampling("Sampling");
+  sampling.add_options()
+      ("sampling.working-points", value(p.sampling.max_working_points), "most points of a scan kept in memory")
+      ("sampling.coarse-voxels", value(p.sampling.coarse_voxels), "voxels of a scan at the resolution scans are placed with")
+      ("sampling.fine-voxels", value(p.sampling.fine_voxels), "voxels of a scan at the resolution they are adjusted with")
+      ("sampling.max-surface-variation", value(p.sampling.max_surface_variation), "0..0.333; rougher places do not count as surfaces");
+  po::options_description placement("Simplex, refinement, adjustment");
+  placement.add_options()
+      ("lp.max-pivots", value(p.lp.lp.max_pivots), "most simplex pivots of one program")
+      ("lp.max-seconds", value(p.lp.lp.max_seconds), "[s] longest time of one program")
+      ("lp.coarse-points", value(p.placement.coarse_points), "points of a scan in the coarse programs")
+      ("lp.fine-points", value(p.placement.fine_points), "points of a scan in the fine programs")
+      ("lp.held-out-points", value(p.placement.held_out_points), "points kept from every fit, for verification")
+      ("refinement", value(c.refinement), "none, descent, annealing or both")
+      ("refinement.points", value(p.refinement.points), "points the cost is taken over, and as many held out")
+      ("descent.steps", value(p.refinement.descent_steps), "most steps of the descent")
+      ("annealing.steps", value(p.refinement.annealing_steps), "steps of the annealing after the simplex")
+      ("annealing.search-steps", value(p.placement.search_steps), "steps of the search where the initial guess fails")
+      ("annealing.initial-temperature", value(p.refinement.initial_temperature), "in units of the cost at the start")
+      ("annealing.final-temperature", value(p.refinement.final_temperature), "the same, at the end; cooling is geometric")
+      ("adjustment.steps", value(p.placement.adjustment_steps), "joint steps of all poses at the fine resolution; 0: none");
+  main.add(outliers).add(sampling).add(placement);
+  return main;
+}
+
+po::options_description command_line_only(RegisterOptions& o, std::string& config) {
+  po::options_description general("Output and control");
+  general.add_options()
+      ("out,o", po::value(&o.out), "folder for the result; must not exist, or --force")
+      ("force", po::bool_switch(&o.force), "replace an earlier result")
+      ("config", po::value(&config), "read options from FILE (name = value); the command line wins")
+      ("print-config", po::bool_switch(&o.print_config), "write the effective options to stdout and stop")
+      ("quiet,q", po::bool_switch(&o.quiet), "no progress, no table; errors and warnings only")
+      ("verbose,v", po::bool_switch(&o.verbose), "say what happens to each scan")
+      ("help,h", po::bool_switch(&o.help), "this text");
+  return general;
+}
+
+}  // namespace
+
+RegisterOptions parse_register_options(const Arguments& arguments) {
+  RegisterOptions o;
+  Choices choices(o.pipeline);
+  std::string config;
+  const po::options_description file_options = configurable(o, choices);
+  po::options_description scans;
+  scans.add_options()("scan", po::value(&o.scans));
+  po::options_description all;
+  all.add(command_line_only(o, config)).add(file_options).add(scans);
+  po::positional_options_description positional;
+  positional.add("scan", -1);
+
+  po::variables_map map;
+  // No guessing of shortened names: a typo must not become another option.
+  const auto style = po::command_line_style::unix_style & ~po::command_line_style::allow_guessing;
+  po::store(po::command_line_parser(arguments).options(all).positional(positional).style(style).run(), map);
+  if (map.count("config") != 0) {
+    const auto path = map["config"].as<std::string>();
+    std::ifstream in(path);
+    if (!in || std::filesystem::is_directory(path)) throw InputError(path, "", "the option file cannot be opened", "check the path given to --config");
+    po::store(po::parse_config_file(in, file_options), map);
+  }
+  po::notify(map);
+  choices.apply(o.pipeline);
+  if (o.threads < 0) throw InvalidOptions("--threads must be at least 0, not " + std::to_string(o.threads));
+  o.pipeline.validate();
+  return o;
+}
+
+void print_register_help(std::ostream& out) {
+  RegisterOptions o;
+  Choices choices(o.pipeline);
+  std::string config;
+  out << "Usage: tcm-icp register SCAN... --out DIR [OPTIONS]\n\n"
+         "Puts overlapping LiDAR scans (.ply .xyz .txt .asc .pts .csv) into the frame of one of them. DIR receives\n"
+         "poses.json, transforms/, registered.ply and report.json. Lengths are in the unit of the scans.\n\n"
+      << command_line_only(o, config) << '\n'
+      << configurable(o, choices)
+      << "\nExample: tcm-icp register datasets/town/*.ply --init datasets/town/initial_poses.json --out out/town\n";
+}
+
+void print_register_config(const RegisterOptions& options, std::ostream& out) {
+  RegisterOptions o = options;
+  Choices choices(o.pipeline);
+  // The defaults of a description made from the effective values are the effective values.
+  const po::options_description description = configurable(o, choices);
+  po::variables_map map;
+  po::store(po::command_line_parser(Arguments{}).options(description).run(), map);
+  out << "# tcm-icp register --config FILE\n" << std::setprecision(std::numeric_limits<double>::max_digits10);
+  for (const auto& option : description.options()) {
+    const boost::any& v = map[option->long_name()].value();
+    out << option->long_name() << " = ";
+    if (const auto* text = boost::any_cast<std::string>(&v)) out << *text;
+    if (const auto* number = boost::any_cast<double>(&v)) out << *number;
+    if (const auto* number = boost::any_cast<int>(&v)) out << *number;
+    if (const auto* number = boost::any_cast<std::uint64_t>(&v)) out << *number;
+    out << '\n';
+  }
+}
+
+}  // namespace tcm_icp::app

@@ -1,0 +1,39 @@
+#pragma once
+// The options of `tcm-icp register`: bound to the library's structs, whose defaults they show.
+
+#include <boost/program_options/options_description.hpp>
+#include <boost/program_options/variables_map.hpp>
+#include <filesystem>
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+#include "command.hpp"
+#include "tcm_icp/pipeline/pipeline_options.hpp"
+
+namespace tcm_icp::app {
+
+struct RegisterOptions {
+  PipelineOptions pipeline;
+  std::vector<std::string> scans;
+  std::string out;
+  std::string initial_poses;
+  std::uint64_t seed = 42;
+  int threads = 0;  ///< 0: as many as the machine has
+  bool force = false;
+  bool quiet = false;
+  bool verbose = false;
+  bool help = false;
+  bool print_config = false;
+};
+
+/// Command line first, then the file of --config: what the command line says wins.
+/// @throws InvalidOptions, boost::program_options::error
+RegisterOptions parse_register_options(const Arguments& arguments);
+
+void print_register_help(std::ostream& out);
+
+/// Every option with its effective value, in the form --config reads.
+void print_register_config(const RegisterOptions& options, std::ostream& out);
+
+}  // namespace tcm_icp::app

@@ -1,0 +1,38 @@
+#pragma once
+// TCM-ICP from files to poses: Algorithm 1 of the paper, one call a line.
+
+#include <Eigen/Geometry>
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "tcm_icp/core/run_context.hpp"
+#include "tcm_icp/pipeline/pipeline_options.hpp"
+#include "tcm_icp/pipeline/pipeline_result.hpp"
+
+namespace tcm_icp {
+
+/// T_common_scan of each scan for raw coordinates; nothing where no guess is given. Any common frame will do.
+using InitialPoses = std::vector<std::optional<Eigen::Isometry3d>>;
+
+class Pipeline {
+ public:
+  /// @throws InvalidOptions
+  explicit Pipeline(PipelineOptions options);
+
+  /// Registers the scans. Raw points stream by once; memory follows the working clouds.
+  /// @param initial_poses  one a scan; where none is given the scan is taken as it lies
+  /// @throws InputError, InvalidInput  a file that cannot be read, fewer than two scans, the same file twice, fewer than
+  ///                                   three points or all points equal
+  /// @throws InvalidOptions            a reference that is no scan
+  /// @throws Cancelled                 the context's on_progress asked for it
+  PipelineResult run(const std::vector<std::filesystem::path>& paths, const InitialPoses& initial_poses,
+                     const RunContext& context) const;
+
+  const PipelineOptions& options() const { return options_; }
+
+ private:
+  PipelineOptions options_;
+};
+
+}  // namespace tcm_icp

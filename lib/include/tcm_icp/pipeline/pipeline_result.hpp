@@ -1,0 +1,75 @@
+#pragma once
+// Everything a run found out, for the files and the report.
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tcm_icp/graph/correspondence_graph.hpp"
+#include "tcm_icp/io/pose_io.hpp"
+#include "tcm_icp/outliers/outlier_removal.hpp"
+#include "tcm_icp/registration/refinement.hpp"
+#include "tcm_icp/registration/registration_result.hpp"
+#include "tcm_icp/registration/verification.hpp"
+#include "tcm_icp/tcm/tcm.hpp"
+
+namespace tcm_icp {
+
+/// What is known of a scan before it is placed.
+struct ScanSummary {
+  std::string file;
+  std::uint64_t num_points = 0;          ///< finite points of the file
+  std::uint64_t num_dropped_points = 0;  ///< NaN or infinite
+  std::size_t num_working_points = 0;    ///< after outlier removal
+  double voxel_size_m = 0;               ///< [m] of the working cloud
+  double spacing_m = 0;                  ///< [m] median nearest-neighbour distance of the working cloud
+  double noise_m = 0;                    ///< [m] median deviation from the local plane
+  double extent_m = 0;                   ///< [m] 90th percentile of the distance from the median point
+  OutlierRule outliers;                  ///< for points in the scan's local frame
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< [m] local frame = raw coordinates minus this
+};
+
+/// One attempt to merge a scan into S.
+struct MergeRecord {
+  std::size_t scan = 0;
+  int attempt = 1;     ///< a scan that fails is tried again when S has grown
+  TcmTerms tcm;        ///< against S, before the simplex
+  RegistrationResult simplex;
+  std::optional<RefinementTrace> descent;
+  std::optional<RefinementTrace> annealing;
+  std::optional<AlignmentEvidence> evidence;  ///< robust profile only
+  bool searched = false;  ///< annealing from the initial guess was needed
+  bool accepted = false;
+  std::string reason;
+};
+
+/// Two scans whose points overlap at the final poses.
+struct LinkRecord {
+  std::size_t a = 0, b = 0;  ///< a < b
+  AlignmentEvidence evidence;  ///< of the direction that overlaps more
+  std::string verdict, reason;
+};
+
+struct StageRecord {
+  std::string name;
+  double seconds = 0;
+  double peak_memory_mb = 0;  ///< of the process, up to the end of the stage
+};
+
+struct PipelineResult {
+  std::size_t reference = 0;
+  std::vector<ScanSummary> scans;
+  std::vector<ScanPose> poses;  ///< for raw coordinates, in the order of the scans
+  CorrespondenceGraph graph;
+  std::vector<MergeRecord> merges;
+  std::vector<LinkRecord> links;
+  std::vector<StageRecord> stages;
+  double coarse_voxel_m = 0;  ///< [m] resolution scans were placed with
+  double fine_voxel_m = 0;    ///< [m] resolution they were adjusted with
+
+  bool all_registered() const;
+};
+
+}  // namespace tcm_icp

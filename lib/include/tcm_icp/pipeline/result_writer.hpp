@@ -1,0 +1,36 @@
+#pragma once
+// The files of a result: poses.json, transforms/, registered.ply, report.json.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "tcm_icp/core/run_context.hpp"
+#include "tcm_icp/pipeline/pipeline_options.hpp"
+#include "tcm_icp/pipeline/pipeline_result.hpp"
+
+namespace tcm_icp {
+
+/// What the report says of the run beside its result.
+struct RunDescription {
+  std::string version;
+  std::string command_line;
+  std::string initial_poses;  ///< file of the initial guess; empty: none was given
+};
+
+/// The report as JSON text (docs/formats.md). Numbers that are not known are null.
+std::string report_json(const PipelineResult& result, const PipelineOptions& options, const RunContext& context,
+                        const RunDescription& description);
+
+/// @throws OutputError  where `folder` exists and `overwrite` is not set, or its parent cannot be written to. To be called
+/// before the work starts.
+void check_output_folder(const std::filesystem::path& folder, bool overwrite);
+
+/// Writes all files into a temporary folder beside `folder` and renames it: a failed run leaves nothing. The raw points stream
+/// by a second time: outliers are left out, attributes kept. The time it takes is added to result.stages.
+/// @throws InputError, OutputError, Cancelled
+void write_result(const std::filesystem::path& folder, bool overwrite, const std::vector<std::filesystem::path>& paths,
+                  PipelineResult& result, const PipelineOptions& options, const RunContext& context,
+                  const RunDescription& description);
+
+}  // namespace tcm_icp

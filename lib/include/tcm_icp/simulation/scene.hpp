@@ -1,0 +1,41 @@
+#pragma once
+// Made-up scenes: surfaces, and where a surveyor can stand.
+
+#include "tcm_icp/core/cloud.hpp"
+#include "tcm_icp/core/random.hpp"
+#include "tcm_icp/simulation/triangle_mesh.hpp"
+
+namespace tcm_icp {
+
+struct Scene {
+  TriangleMesh mesh;  ///< z up [m]
+  Points path;        ///< polyline on the ground [m], >= 2 points, clear of objects: stations are chosen along it
+};
+
+struct TownOptions {
+  double half_size_m = 30;  ///< [m] >= 10; the built-up square reaches this far from its middle along x and y
+  int num_buildings = 8;    ///< 0..1000, gabled houses with recessed windows
+  int num_sheds = 4;        ///< 0..1000, garages: boxes with flat roofs
+  int num_trees = 14;       ///< 0..1000
+  int num_bushes = 8;       ///< 0..1000
+  int num_cars = 7;         ///< 0..1000, parked at the kerbs
+  int num_lamps = 6;        ///< 0..1000, lamp posts with an arm
+  int num_fences = 3;       ///< 0..1000
+  void validate() const;    ///< throws InvalidOptions
+};
+
+/// A street that bends through uneven ground, with houses on both sides: no symmetry, no repetition. Houses are turned
+/// with the street, each by a few degrees of its own.
+/// @throws InvalidOptions  if a field is out of bounds, or an object finds no room (which and how many is said)
+Scene make_town_scene(const TownOptions& options, Rng& rng);
+
+/// The point at `distance_m` along a polyline and the direction there [rad]; the ends where the distance is beyond
+/// them.
+struct PathPoint {
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();
+  double heading_rad = 0;
+};
+PathPoint along_path(const Points& path, double distance_m);
+double path_length_m(const Points& path);
+
+}  // namespace tcm_icp

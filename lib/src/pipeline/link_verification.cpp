@@ -1,0 +1,32 @@
+#include "link_verification.hpp"
+
+#include "tcm_icp/core/parallel.hpp"
+#include "verdict.hpp"
+
+namespace tcm_icp {
+
+std::vector<LinkRecord> verify_links(const std::vector<PreparedScan>& scans,
+                                     const std::vector<std::pair<std::size_t, std::size_t>>& pairs,
+                                     const std::vector<Eigen::Isometry3d>& T_reference_scan, int num_threads) {
+  std::vector<LinkRecord> links(pairs.size());
+  parallel_for(num_threads, pairs.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      const auto [a, b] = pairs[k];
+      const Eigen::Isometry3d T_a_b = T_reference_scan[a].inverse() * T_reference_scan[b];
+      const PyramidLevel& level_a = scans[a].pyramid.level(0);
+      const PyramidLevel& level_b = scans[b].pyramid.level(0);
+      const VerificationOptions options = verification_at(level_a.voxel_size_m);
+      const AlignmentEvidence b_in_a = verify_alignment(scans[b].held_out_sample, level_a, T_a_b, options);
+      const AlignmentEvidence a_in_b = verify_alignment(scans[a].held_out_sample, level_b, T_a_b.inverse(), options);
+      links[k].a = a;
+      links[k].b = b;
+      links[k].evidence = b_in_a.overlap >= a_in_b.overlap ? b_in_a : a_in_b;
+      const Verdict verdict = judge(links[k].evidence);
+      links[k].verdict = verdict.accepted ? "accepted" : "rejected";
+      links[k].reason = verdict.reason;
+    }
+  });
+  return links;
+}
+
+}  // namespace tcm_icp

@@ -1,0 +1,17 @@
+#include "merged_cloud.hpp"
+
+#include "prepared_scan.hpp"
+#include "tcm_icp/core/rigid_transform.hpp"
+#include "tcm_icp/core/voxel_sampler.hpp"
+
+namespace tcm_icp {
+
+void MergedCloud::merge(const Cloud& cloud, const Eigen::Isometry3d& T_reference_scan) {
+  const Cloud moved = transformed(cloud, T_reference_scan);
+  cloud_.points.insert(cloud_.points.end(), moved.points.begin(), moved.points.end());
+  cloud_.normals.insert(cloud_.normals.end(), moved.normals.begin(), moved.normals.end());
+  cloud_ = voxel_downsample(cloud_, voxel_size_m_);
+  pyramid_.emplace(cloud_, voxel_size_m_, kNumPyramidLevels);
+}
+
+}  // namespace tcm_icp

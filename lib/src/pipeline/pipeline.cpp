@@ -1,0 +1,282 @@
+#include "tcm_icp/pipeline/pipeline.hpp"
+
+#include <algorithm>
+#include <set>
+#include <string>
+
+#include "adjustment.hpp"
+#include "link_verification.hpp"
+#include "merged_cloud.hpp"
+#include "placement.hpp"
+#include "prepared_scan.hpp"
+#include "scan_sampling.hpp"
+#include "stage_clock.hpp"
+#include "tcm_icp/core/error.hpp"
+#include "tcm_icp/core/parallel.hpp"
+#include "tcm_icp/graph/correspondence_measure.hpp"
+#include "tcm_icp/tcm/merge_order.hpp"
+
+namespace tcm_icp {
+namespace {
+
+// Least share of a scan's points near another for the pair to be a link of the robust graph.
+constexpr double kMinLinkOverlap = 0.1;
+
+void check_paths(const std::vector<std::filesystem::path>& paths, const InitialPoses& initial_poses) {
+  if (paths.size() < 2) {
+    throw InvalidOptions("registration needs at least two scans, not " + std::to_string(paths.size()) +
+                         "; name the files of all scans");
+  }
+  if (initial_poses.size() != paths.size()) {
+    throw InvalidOptions(std::to_string(initial_poses.size()) + " initial poses for " + std::to_string(paths.size()) +
+                         " scans");
+  }
+  std::set<std::filesystem::path> places;
+  std::set<std::string> names;
+  for (const auto& path : paths) {
+    std::error_code ignored;
+    const auto canonical = std::filesystem::weakly_canonical(path, ignored);
+    if (!places.insert(canonical.empty() ? path : canonical).second) {
+      throw InvalidInput(path.string() + ": named twice; name each scan once");
+    }
+    if (!names.insert(path.filename().string()).second) {
+      throw InvalidInput(path.string() + ": another scan has the same file name, and results go by it; rename one");
+    }
+  }
+}
+
+std::size_t find_scan(const std::vector<SampledScan>& scans, const std::string& name) {
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    if (scans[i].scan.file == name || scans[i].scan.path == name) return i;
+  }
+  throw InvalidOptions("--reference " + name + ": no scan of that name; it must be one of the files given");
+}
+
+class Run {
+ public:
+  Run(const PipelineOptions& options, const RunContext& context) : options_(options), context_(context), clock_(result_.stages) {}
+
+  PipelineResult operator()(const std::vector<std::filesystem::path>& paths, const InitialPoses& initial_poses) {
+    clock_.begin("read and sample");
+    read_scans(paths);
+    clock_.begin("prepare");
+    prepare_scans(initial_poses);
+    clock_.begin("graph");
+    build_graph();
+    clock_.begin("merge");
+    merge_scans();
+    clock_.begin("adjust");
+    adjust();
+    clock_.begin("verify");
+    verify();
+    clock_.end();
+    return std::move(result_);
+  }
+
+ private:
+  bool paper() const { return options_.profile == Profile::kPaper; }
+
+  void read_scans(const std::vector<std::filesystem::path>& paths) {
+    sampled_.resize(paths.size());
+    const auto batch = static_cast<std::size_t>(context_.num_threads);
+    for (std::size_t first = 0; first < paths.size(); first += batch) {
+      context_.report("reading", first, paths.size());
+      const std::size_t count = std::min(batch, paths.size() - first);
+      parallel_for(context_.num_threads, count, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = first + begin; i < first + end; ++i) {
+          sampled_[i] = sample_scan(paths[i], options_, context_.seed, 1);
+        }
+      });
+    }
+    for (const auto& s : sampled_) {
+      result_.scans.push_back({s.scan.file, s.scan.num_raw_points, s.scan.num_dropped_points, s.scan.cloud.size(),
+                               s.scan.voxel_size_m, s.scan.spacing_m, s.scan.noise_m, s.scan.extent_m, s.outliers,
+                               s.scan.origin});
+    }
+  }
+
+  void prepare_scans(const InitialPoses& initial_poses) {
+    context_.report("preparing", 0, sampled_.size());
+    resolutions_ = choose_resolutions(sampled_, options_.sampling, context_.num_threads);
+    result_.coarse_voxel_m = resolutions_.coarse_m;
+    result_.fine_voxel_m = resolutions_.fine_m;
+    std::vector<std::optional<PreparedScan>> prepared(sampled_.size());
+    parallel_for(context_.num_threads, sampled_.size(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        prepared[i] = prepare_scan(sampled_[i], resolutions_, options_.placement, context_.seed);
+        sampled_[i].scan.cloud = Cloud();  // the samples stand for it from here on
+        sampled_[i].surface_normals = Points();
+      }
+    });
+    for (std::size_t i = 0; i < sampled_.size(); ++i) {
+      scans_.push_back(std::move(*prepared[i]));
+      T_init_.push_back(initial_poses[i].value_or(Eigen::Isometry3d::Identity()) *
+                        Eigen::Translation3d(sampled_[i].scan.origin));
+    }
+  }
+
+  // correspondence() for every pair in the frames of the initial poses, and the reference it picks.
+  void build_graph() {
+    const auto n = static_cast<Eigen::Index>(scans_.size());
+    Eigen::MatrixXd measure = Eigen::MatrixXd::Zero(n, n);
+    for (Eigen::Index i = 0; i < n; ++i) {
+      context_.report("comparing", static_cast<std::size_t>(i), scans_.size());
+      parallel_for(context_.num_threads, static_cast<std::size_t>(n - i - 1), [&](std::size_t begin, std::size_t end) {
+        for (std::size_t k = begin; k < end; ++k) {
+          const Eigen::Index j = i + 1 + static_cast<Eigen::Index>(k);
+          measure(i, j) = measure(j, i) = correspondence(static_cast<std::size_t>(i), static_cast<std::size_t>(j));
+        }
+      });
+    }
+    std::optional<double> threshold;
+    if (options_.graph_threshold > 0) {
+      threshold = options_.graph_threshold;
+    } else if (!paper()) {
+      threshold = 1 - kMinLinkOverlap;
+    }
+    result_.graph = build_correspondence_graph(measure, threshold);
+    result_.reference =
+        options_.reference.empty() ? result_.graph.reference : find_scan(sampled_, options_.reference);
+    result_.graph.reference = result_.reference;
+  }
+
+  double correspondence(std::size_t i, std::size_t j) const {
+    const PyramidLevel& a = scans_[i].pyramid.level(1);
+    const PyramidLevel& b = scans_[j].pyramid.level(1);
+    const Eigen::Isometry3d T_i_j = T_init_[i].inverse() * T_init_[j];
+    if (paper()) {
+      const Points moved = transformed({b.cloud.points, {}}, T_i_j).points;
+      const NeighborIndex index(moved);
+      return correspondence_distance({a.cloud.points, a.index}, {moved, index});
+    }
+    return 1 - overlap({a.cloud.points, a.index}, {b.cloud.points, b.index}, T_i_j, 2 * a.voxel_size_m);
+  }
+
+  void merge_scans() {
+    const std::size_t n = scans_.size(), reference = result_.reference;
+    T_reference_scan_.assign(n, Eigen::Isometry3d::Identity());
+    placed_.assign(n, false);
+    placed_[reference] = true;
+    MergedCloud merged(resolutions_.coarse_m);
+    merged.merge(scans_[reference].pyramid.level(0).cloud, Eigen::Isometry3d::Identity());
+
+    std::vector<int> attempts(n, 0);
+    std::vector<std::size_t> tried_at(n, 0);  // size of S, in scans, at the last attempt
+    std::size_t num_merged = 1;
+    while (true) {
+      std::vector<MergeCandidate> candidates;
+      for (std::size_t j = 0; j < n; ++j) {
+        // A scan that failed is tried again once S has grown.
+        if (!placed_[j] && tried_at[j] < num_merged) candidates.push_back({j, {}});
+      }
+      if (candidates.empty()) break;
+      context_.report("merging", num_merged, n);
+      compute_tcm(merged, candidates);
+      const std::size_t q = next_scan_to_merge(candidates);
+      MergeRecord record;
+      record.scan = q;
+      record.attempt = ++attempts[q];
+      record.tcm = std::find_if(candidates.begin(), candidates.end(), [&](const auto& c) { return c.scan == q; })->terms;
+      Rng rng = make_stream(context_.seed, "placement", sampled_[q].scan.file + "#" + std::to_string(record.attempt));
+      const Eigen::Isometry3d T_init = T_init_[reference].inverse() * T_init_[q];
+      const auto place = paper() ? place_scan_as_printed : place_scan;
+      const Eigen::Isometry3d T = place(scans_[q], merged.pyramid(), T_init, options_, rng, record);
+      tried_at[q] = num_merged;
+      if (record.accepted) {
+        T_reference_scan_[q] = T;
+        placed_[q] = true;
+        merged.merge(scans_[q].pyramid.level(0).cloud, T);
+        ++num_merged;
+      }
+      context_.debug(sampled_[q].scan.file + (record.accepted ? " merged: " : " set aside: ") + record.reason);
+      result_.merges.push_back(std::move(record));
+    }
+  }
+
+  void compute_tcm(const MergedCloud& merged, std::vector<MergeCandidate>& candidates) const {
+    const std::size_t reference = result_.reference;
+    if (paper()) {
+      const TcmCloud s(merged.pyramid().level(0).cloud.points);
+      for (auto& c : candidates) {
+        c.terms = tcm_terms(s, TcmCloud(scans_[c.scan].pyramid.level(0).cloud.points),
+                            T_init_[reference].inverse() * T_init_[c.scan]);
+      }
+      return;
+    }
+    const RobustTcmCloud s(merged.pyramid().level(1).cloud.points, options_.tcm);
+    parallel_for(context_.num_threads, candidates.size(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t k = begin; k < end; ++k) {
+        const RobustTcmCloud cloud(scans_[candidates[k].scan].tcm_points, options_.tcm);
+        candidates[k].terms = robust_tcm_terms(s, cloud, T_init_[reference].inverse() * T_init_[candidates[k].scan]);
+      }
+    });
+  }
+
+  void adjust() {
+    pairs_ = overlapping_pairs(scans_, T_reference_scan_, placed_, kMinLinkOverlap, context_.num_threads);
+    if (paper()) return;
+    adjust_poses(scans_, pairs_, result_.reference, resolutions_, options_.placement, context_, T_reference_scan_);
+  }
+
+  void verify() {
+    context_.report("verifying", 0, 1);
+    result_.links = verify_links(scans_, pairs_, T_reference_scan_, context_.num_threads);
+    int component = 0;
+    const Eigen::Translation3d from_reference(sampled_[result_.reference].scan.origin);
+    for (std::size_t i = 0; i < scans_.size(); ++i) {
+      ScanPose pose;
+      pose.file = sampled_[i].scan.file;
+      if (placed_[i]) {
+        pose.status = i == result_.reference ? ScanStatus::kReference : ScanStatus::kRegistered;
+        pose.verdict = "accepted";
+        // Raw coordinates to the reference's raw coordinates: both local origins are put back.
+        pose.T_reference_scan =
+            from_reference * T_reference_scan_[i] * Eigen::Translation3d(-sampled_[i].scan.origin);
+        if (i == result_.reference) pose.T_reference_scan = Eigen::Isometry3d::Identity();
+        pose.reason = i == result_.reference ? "the reference" : last_reason(i);
+      } else {
+        pose.status = ScanStatus::kUnregistered;
+        pose.component = ++component;
+        pose.verdict = "rejected";
+        pose.reason = last_reason(i);
+      }
+      result_.poses.push_back(std::move(pose));
+    }
+  }
+
+  std::string last_reason(std::size_t scan) const {
+    for (auto it = result_.merges.rbegin(); it != result_.merges.rend(); ++it) {
+      if (it->scan == scan) return it->reason;
+    }
+    return "";
+  }
+
+  const PipelineOptions& options_;
+  const RunContext& context_;
+  PipelineResult result_;
+  StageClock clock_;
+  std::vector<SampledScan> sampled_;
+  Resolutions resolutions_;
+  std::vector<PreparedScan> scans_;
+  std::vector<Eigen::Isometry3d> T_init_;            // common frame of the initial poses <- local frame
+  std::vector<Eigen::Isometry3d> T_reference_scan_;  // local frames
+  std::vector<bool> placed_;
+  ScanPairs pairs_;
+};
+
+}  // namespace
+
+bool PipelineResult::all_registered() const {
+  return std::none_of(poses.begin(), poses.end(),
+                      [](const ScanPose& p) { return p.status == ScanStatus::kUnregistered; });
+}
+
+Pipeline::Pipeline(PipelineOptions options) : options_(std::move(options)) { options_.validate(); }
+
+PipelineResult Pipeline::run(const std::vector<std::filesystem::path>& paths, const InitialPoses& initial_poses,
+                             const RunContext& context) const {
+  check_paths(paths, initial_poses);
+  return Run(options_, context)(paths, initial_poses);
+}
+
+}  // namespace tcm_icp

@@ -1,0 +1,52 @@
+#include "tcm_icp/pipeline/pipeline_options.hpp"
+
+#include <string>
+
+#include "tcm_icp/core/error.hpp"
+
+namespace tcm_icp {
+namespace {
+
+template <typename T>
+void require(bool ok, const char* rule, T value) {
+  if (!ok) throw InvalidOptions(std::string(rule) + ", not " + std::to_string(value));
+}
+
+}  // namespace
+
+void SamplingOptions::validate() const {
+  require(max_working_points >= 1000, "sampling max_working_points must be at least 1000", max_working_points);
+  require(coarse_voxels >= 100, "sampling coarse_voxels must be at least 100", coarse_voxels);
+  require(fine_voxels >= coarse_voxels, "sampling fine_voxels must be at least coarse_voxels", fine_voxels);
+  require(max_surface_variation >= 0 && max_surface_variation <= 1.0 / 3,
+          "sampling max_surface_variation must be between 0 and 1/3", max_surface_variation);
+}
+
+void PlacementOptions::validate() const {
+  require(coarse_points >= 100, "placement coarse_points must be at least 100", coarse_points);
+  require(fine_points >= 100, "placement fine_points must be at least 100", fine_points);
+  require(held_out_points >= 100, "placement held_out_points must be at least 100", held_out_points);
+  require(search_steps >= 0, "placement search_steps must be at least 0", search_steps);
+  require(adjustment_steps >= 0, "placement adjustment_steps must be at least 0", adjustment_steps);
+}
+
+void RefinementOptions::validate() const {
+  require(points >= 20, "refinement points must be at least 20", points);
+  require(descent_steps >= 1, "refinement descent_steps must be at least 1", descent_steps);
+  require(annealing_steps >= 0, "refinement annealing_steps must be at least 0", annealing_steps);
+  require(initial_temperature > 0, "refinement initial_temperature must be above 0", initial_temperature);
+  require(final_temperature > 0 && final_temperature <= initial_temperature,
+          "refinement final_temperature must be above 0 and at most initial_temperature", final_temperature);
+}
+
+void PipelineOptions::validate() const {
+  require(graph_threshold >= 0, "graph_threshold must be at least 0", graph_threshold);
+  sampling.validate();
+  outliers.validate();
+  tcm.validate();
+  lp.validate();
+  placement.validate();
+  refinement.validate();
+}
+
+}  // namespace tcm_icp

@@ -1,0 +1,26 @@
+#pragma once
+// Placing one scan against the merged cloud: simplex, descent, annealing, verification.
+
+#include <Eigen/Geometry>
+
+#include "prepared_scan.hpp"
+#include "tcm_icp/core/random.hpp"
+#include "tcm_icp/pipeline/pipeline_options.hpp"
+#include "tcm_icp/pipeline/pipeline_result.hpp"
+
+namespace tcm_icp {
+
+/// Fills `record` but for scan, attempt and tcm; returns the pose found, right or not: record.accepted tells.
+///
+/// The linear programs start from gates of 8, 16, 4 and 32 coarse voxels in turn, because nothing tells how far off the
+/// initial guess is; the first that passes verification ends the turn, otherwise the one with the largest consensus counts.
+/// If none passes, annealing searches from the initial guess, and the programs start again from what it finds.
+Eigen::Isometry3d place_scan(const PreparedScan& scan, const ScanPyramid& merged, const Eigen::Isometry3d& T_init,
+                             const PipelineOptions& options, Rng& rng, MergeRecord& record);
+
+/// The paper's way: simplex over all nearest neighbours in 12 entries, descent and annealing on tau, no verification.
+Eigen::Isometry3d place_scan_as_printed(const PreparedScan& scan, const ScanPyramid& merged,
+                                        const Eigen::Isometry3d& T_init, const PipelineOptions& options, Rng& rng,
+                                        MergeRecord& record);
+
+}  // namespace tcm_icp

@@ -1,0 +1,79 @@
+#include "prepared_scan.hpp"
+
+#include <algorithm>
+
+#include "statistics.hpp"
+#include "tcm_icp/core/parallel.hpp"
+#include "tcm_icp/core/random.hpp"
+#include "tcm_icp/core/voxel_sampler.hpp"
+#include "tcm_icp/registration/normal_space_sampling.hpp"
+
+namespace tcm_icp {
+namespace {
+
+Cloud pick(const Cloud& cloud, const std::vector<std::size_t>& indices) {
+  Cloud out;
+  out.points.reserve(indices.size());
+  out.normals.reserve(indices.size());
+  for (const std::size_t i : indices) {
+    out.points.push_back(cloud.points[i]);
+    out.normals.push_back(cloud.normals[i]);
+  }
+  return out;
+}
+
+Cloud draw(const Cloud& cloud, int count, std::uint64_t seed, std::string_view stage, const std::string& file) {
+  Rng rng = make_stream(seed, stage, file);
+  return pick(cloud, normal_space_sample(cloud, static_cast<std::size_t>(count), rng));
+}
+
+// Splits one draw so that no held-out point is in the fit.
+void draw_fit_and_held_out(const Cloud& cloud, const PlacementOptions& options, std::uint64_t seed,
+                           const std::string& file, Cloud& fit, Cloud& held_out) {
+  Rng rng = make_stream(seed, "fit and held-out points", file);
+  const auto wanted = static_cast<std::size_t>(options.fine_points + options.held_out_points);
+  const auto drawn = normal_space_sample(cloud, wanted, rng);
+  // In the proportion asked for, also where the cloud has fewer points than that.
+  const std::size_t num_held_out = drawn.size() * static_cast<std::size_t>(options.held_out_points) / wanted;
+  const auto positions = sample_indices(rng, drawn.size(), num_held_out);
+  std::vector<std::size_t> in_fit, out_of_fit;
+  for (std::size_t i = 0, next = 0; i < drawn.size(); ++i) {
+    const bool chosen = next < positions.size() && positions[next] == i;
+    (chosen ? out_of_fit : in_fit).push_back(drawn[i]);
+    next += chosen ? 1 : 0;
+  }
+  fit = pick(cloud, in_fit);
+  held_out = pick(cloud, out_of_fit);
+}
+
+}  // namespace
+
+Resolutions choose_resolutions(const std::vector<SampledScan>& scans, const SamplingOptions& options, int num_threads) {
+  std::vector<double> coarse(scans.size()), fine(scans.size());
+  parallel_for(num_threads, scans.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      coarse[i] = voxel_size_for(scans[i].scan.cloud.points, options.coarse_voxels);
+      fine[i] = voxel_size_for(scans[i].scan.cloud.points, options.fine_voxels);
+    }
+  });
+  return {quantile(coarse, 0.5), quantile(fine, 0.5)};
+}
+
+PreparedScan prepare_scan(const SampledScan& scan, const Resolutions& resolutions, const PlacementOptions& options,
+                          std::uint64_t seed) {
+  const Cloud surfaces{scan.scan.cloud.points, scan.surface_normals};
+  Cloud fine = voxel_downsample(surfaces, resolutions.fine_m);
+  NeighborIndex fine_index(fine.points);
+  PreparedScan out{ScanPyramid(surfaces, resolutions.coarse_m, kNumPyramidLevels),
+                   {resolutions.fine_m, std::move(fine), std::move(fine_index)},
+                   {}, {}, {}, {}, {}};
+  const std::string& file = scan.scan.file;
+  out.coarse_sample =
+      draw(voxel_downsample(scan.scan.cloud, resolutions.coarse_m), options.coarse_points, seed, "coarse points", file);
+  draw_fit_and_held_out(out.pyramid.level(0).cloud, options, seed, file, out.fit_sample, out.held_out_sample);
+  out.fine_sample = draw(out.fine.cloud, options.fine_points, seed, "fine points", file);
+  out.tcm_points = out.pyramid.level(std::min<std::size_t>(1, kNumPyramidLevels - 1)).cloud.points;
+  return out;
+}
+
+}  // namespace tcm_icp

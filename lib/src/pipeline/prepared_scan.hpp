@@ -1,0 +1,39 @@
+#pragma once
+// A scan as the registration sees it: resolutions common to the set, samples for fits, and samples kept from them.
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "scan_sampling.hpp"
+#include "tcm_icp/registration/scan_pyramid.hpp"
+#include "tcm_icp/tcm/robust_tcm.hpp"
+
+namespace tcm_icp {
+
+/// Voxel edges common to all scans of a set [m].
+struct Resolutions {
+  double coarse_m = 0;  ///< scans are placed with
+  double fine_m = 0;    ///< and adjusted with
+};
+
+struct PreparedScan {
+  ScanPyramid pyramid;   ///< from the coarse voxel upwards; surface normals
+  PyramidLevel fine;     ///< fine voxel; surface normals
+  Cloud coarse_sample;   ///< for coarse programs: every kind of point
+  Cloud fit_sample;      ///< for fine programs: surfaces, at the coarse voxel
+  Cloud held_out_sample; ///< surfaces at the coarse voxel; in no fit
+  Cloud fine_sample;     ///< surfaces at the fine voxel, for the adjustment
+  Points tcm_points;     ///< thinned to the pyramid's second level
+};
+
+/// The median over the scans of the voxel edge at which a scan has the wanted number of voxels.
+Resolutions choose_resolutions(const std::vector<SampledScan>& scans, const SamplingOptions& options, int num_threads);
+
+PreparedScan prepare_scan(const SampledScan& scan, const Resolutions& resolutions, const PlacementOptions& options,
+                          std::uint64_t seed);
+
+/// Levels of every pyramid: gates up to 32 coarse voxels are served at a fitting resolution.
+constexpr std::size_t kNumPyramidLevels = 4;
+
+}  // namespace tcm_icp

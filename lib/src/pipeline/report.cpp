@@ -1,0 +1,184 @@
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "tcm_icp/pipeline/result_writer.hpp"
+
+namespace tcm_icp {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// JSON knows no NaN.
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+Json to_json(const LpFigures& lp) {
+  return {{"programs", lp.num_programs},
+          {"pivots", lp.num_pivots},
+          {"last_objective_m", number(lp.objective)},
+          {"largest_relative_duality_gap", number(lp.relative_duality_gap)},
+          {"seconds", lp.seconds}};
+}
+
+Json to_json(const RefinementTrace& t) {
+  return {{"steps", t.num_steps},
+          {"accepted_steps", t.num_accepted},
+          {"initial_cost", number(t.initial_cost)},
+          {"final_cost", number(t.final_cost)},
+          {"initial_held_out_cost", number(t.initial_held_out_cost)},
+          {"final_held_out_cost", number(t.final_held_out_cost)},
+          {"kept", t.kept}};
+}
+
+Json to_json(const AlignmentEvidence& e) {
+  return {{"points", e.num_points},
+          {"overlap", e.overlap},
+          {"inlier_share", e.inlier_share},
+          {"median_residual_m", e.median_residual_m},
+          {"tolerance_m", e.tolerance_m},
+          {"slide_m", e.slide_m},
+          {"left_after_slide", e.left_after_slide}};
+}
+
+Json to_json(const RegistrationResult& r) {
+  return {{"termination", to_string(r.termination)},
+          {"iterations", r.num_iterations},
+          {"correspondences", r.num_correspondences},
+          {"median_residual_m", number(r.median_residual_m)},
+          {"lp", to_json(r.lp)}};
+}
+
+Json to_json(const MergeRecord& m, const PipelineResult& result) {
+  Json j{{"scan", result.scans[m.scan].file},
+         {"attempt", m.attempt},
+         {"accepted", m.accepted},
+         {"reason", m.reason},
+         {"tcm", {{"tau", number(m.tcm.tau())}, {"f", number(m.tcm.f)}, {"g", number(m.tcm.g)}, {"h", number(m.tcm.h)}}},
+         {"simplex", to_json(m.simplex)},
+         {"searched_by_annealing", m.searched}};
+  if (m.descent) j["descent"] = to_json(*m.descent);
+  if (m.annealing) j["annealing"] = to_json(*m.annealing);
+  if (m.evidence) j["evidence"] = to_json(*m.evidence);
+  const long long descent = m.descent ? m.descent->num_steps : 0, annealing = m.annealing ? m.annealing->num_steps : 0;
+  j["iterations"] = {{"simplex_pivots", m.simplex.lp.num_pivots},
+                     {"descent_steps", descent},
+                     {"annealing_steps", annealing},
+                     {"sum", m.simplex.lp.num_pivots + descent + annealing}};
+  return j;
+}
+
+const char* name_of(OutlierMethod method) {
+  switch (method) {
+    case OutlierMethod::kKMeans: return "kmeans";
+    case OutlierMethod::kDistance: return "distance";
+    case OutlierMethod::kLof: return "lof";
+    case OutlierMethod::kNone: return "none";
+  }
+  return "unknown";
+}
+
+Json to_json(const ScanSummary& s) {
+  const OutlierSummary& o = s.outliers.summary();
+  return {{"file", s.file},
+          {"points", s.num_points},
+          {"dropped_points", s.num_dropped_points},
+          {"working_points", s.num_working_points},
+          {"working_voxel_m", s.voxel_size_m},
+          {"spacing_m", s.spacing_m},
+          {"noise_m", s.noise_m},
+          {"extent_m", s.extent_m},
+          {"outliers",
+           {{"method", name_of(o.method)},
+            {"clusters", o.num_clusters},
+            {"struck_clusters", o.num_struck_clusters},
+            {"radius_m", o.radius_m},
+            {"threshold", o.threshold},
+            {"working_points_removed", o.num_outliers}}}};
+}
+
+Json graph_json(const PipelineResult& result) {
+  const CorrespondenceGraph& g = result.graph;
+  Json measure = Json::array(), edges = Json::array(), degrees = Json::array();
+  for (Eigen::Index i = 0; i < g.measure.rows(); ++i) {
+    Json row = Json::array();
+    for (Eigen::Index j = 0; j < g.measure.cols(); ++j) row.push_back(number(g.measure(i, j)));
+    measure.push_back(row);
+  }
+  for (std::size_t i = 0; i < g.size(); ++i) {
+    degrees.push_back(g.degree(i));
+    for (const std::size_t j : g.adjacency[i]) {
+      if (i < j) edges.push_back({result.scans[i].file, result.scans[j].file});
+    }
+  }
+  return {{"reference", result.scans[result.reference].file},
+          {"threshold", number(g.threshold)},
+          {"threshold_from_data", g.threshold_from_data},
+          {"measure", measure},
+          {"degrees", degrees},
+          {"edges", edges}};
+}
+
+Json options_json(const PipelineOptions& o, const RunContext& context) {
+  return {{"profile", o.profile == Profile::kPaper ? "paper" : "robust"},
+          {"solver", to_string(o.lp.lp.solver)},
+          {"reference", o.reference},
+          {"graph_threshold", o.graph_threshold},
+          {"outliers", name_of(o.outliers.method)},
+          {"max_working_points", o.sampling.max_working_points},
+          {"coarse_voxels", o.sampling.coarse_voxels},
+          {"fine_voxels", o.sampling.fine_voxels},
+          {"coarse_points", o.placement.coarse_points},
+          {"fine_points", o.placement.fine_points},
+          {"held_out_points", o.placement.held_out_points},
+          {"search_steps", o.placement.search_steps},
+          {"adjustment_steps", o.placement.adjustment_steps},
+          {"descent_steps", o.refinement.descent_steps},
+          {"annealing_steps", o.refinement.annealing_steps},
+          {"seed", context.seed},
+          {"threads", context.num_threads}};
+}
+
+const char* name_of(ScanStatus status) {
+  switch (status) {
+    case ScanStatus::kReference: return "reference";
+    case ScanStatus::kRegistered: return "registered";
+    case ScanStatus::kUnregistered: return "unregistered";
+  }
+  return "unknown";
+}
+
+}  // namespace
+
+std::string report_json(const PipelineResult& result, const PipelineOptions& options, const RunContext& context,
+                        const RunDescription& description) {
+  Json report{{"schema", 1},
+              {"program", "tcm-icp"},
+              {"version", description.version},
+              {"command_line", description.command_line},
+              {"initial_poses", description.initial_poses.empty() ? Json(nullptr) : Json(description.initial_poses)},
+              {"options", options_json(options, context)},
+              {"coarse_voxel_m", result.coarse_voxel_m},
+              {"fine_voxel_m", result.fine_voxel_m}};
+  for (const auto& s : result.scans) report["scans"].push_back(to_json(s));
+  for (std::size_t i = 0; i < result.poses.size(); ++i) {
+    report["scans"][i]["status"] = name_of(result.poses[i].status);
+    report["scans"][i]["verdict"] = result.poses[i].verdict;
+    report["scans"][i]["reason"] = result.poses[i].reason;
+  }
+  report["graph"] = graph_json(result);
+  report["merges"] = Json::array();
+  for (const auto& m : result.merges) report["merges"].push_back(to_json(m, result));
+  report["links"] = Json::array();
+  for (const auto& l : result.links) {
+    report["links"].push_back({{"a", result.scans[l.a].file},
+                               {"b", result.scans[l.b].file},
+                               {"verdict", l.verdict},
+                               {"reason", l.reason},
+                               {"evidence", to_json(l.evidence)}});
+  }
+  for (const auto& s : result.stages) {
+    report["stages"].push_back({{"name", s.name}, {"seconds", s.seconds}, {"peak_memory_mb", s.peak_memory_mb}});
+  }
+  return report.dump(1) + "\n";
+}
+
+}  // namespace tcm_icp

@@ -1,0 +1,93 @@
+#include "scan_sampling.hpp"
+
+#include <algorithm>
+
+#include "statistics.hpp"
+#include "tcm_icp/core/error.hpp"
+#include "tcm_icp/core/neighbor_index.hpp"
+#include "tcm_icp/core/normals.hpp"
+#include "tcm_icp/core/random.hpp"
+#include "tcm_icp/core/voxel_sampler.hpp"
+#include "tcm_icp/io/scan_reader.hpp"
+
+namespace tcm_icp {
+namespace {
+
+constexpr std::size_t kMinPoints = 3;
+
+// 90th percentile of the distance from the median point.
+double robust_extent(const Points& points) {
+  std::vector<double> values(points.size());
+  Eigen::Vector3d middle;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (std::size_t i = 0; i < points.size(); ++i) values[i] = points[i][axis];
+    middle[axis] = quantile(values, 0.5);
+  }
+  for (std::size_t i = 0; i < points.size(); ++i) values[i] = (points[i] - middle).norm();
+  return quantile(values, 0.9);
+}
+
+Points stream_into_sample(Scan& scan, std::size_t max_points) {
+  ScanReader reader(scan.path, ReadAttributes::kNo);
+  VoxelSampler sampler(max_points);
+  PointBlock block;
+  bool first = true;
+  while (reader.read(block)) {
+    if (first) scan.origin = block.points.front();
+    first = false;
+    for (auto& p : block.points) p -= scan.origin;
+    sampler.add(block.points);
+  }
+  scan.num_raw_points = reader.num_points();
+  scan.num_dropped_points = reader.num_dropped();
+  if (scan.num_raw_points < kMinPoints) {
+    throw InvalidInput(scan.path.string() + ": " + std::to_string(scan.num_raw_points) +
+                       " finite points; a scan needs at least 3; leave the file out or export it again");
+  }
+  Points sample = sampler.finish();
+  scan.voxel_size_m = sampler.voxel_size_m();
+  if (sample.size() < kMinPoints) {
+    throw InvalidInput(scan.path.string() + ": its points lie in " + std::to_string(sample.size()) +
+                       (sample.size() == 1 ? " place" : " places") +
+                       "; a scan needs at least 3 different points; check the file's columns");
+  }
+  return sample;
+}
+
+}  // namespace
+
+SampledScan sample_scan(const std::filesystem::path& path, const PipelineOptions& options, std::uint64_t seed,
+                        int num_threads) {
+  SampledScan out;
+  Scan& scan = out.scan;
+  scan.path = path;
+  scan.file = path.filename().string();
+  const Points sample = stream_into_sample(scan, options.sampling.max_working_points);
+
+  Rng rng = make_stream(seed, "outliers", scan.file);
+  out.outliers = learn_outlier_rule(sample, scan.voxel_size_m, options.outliers, rng, num_threads);
+  for (const auto& p : sample) {
+    if (!out.outliers.is_outlier(p)) scan.cloud.points.push_back(p);
+  }
+  if (scan.cloud.size() < kMinPoints) {
+    throw InvalidInput(path.string() + ": outlier removal left " + std::to_string(scan.cloud.size()) +
+                       " points; choose another threshold or --outliers none");
+  }
+  const NeighborIndex index(scan.cloud.points);
+  scan.spacing_m = median_spacing(scan.cloud.points, index);
+  scan.extent_m = robust_extent(scan.cloud.points);
+  NormalEstimate estimate = estimate_normals(scan.cloud.points, index, {}, num_threads);
+  std::vector<double> roughness;
+  for (std::size_t i = 0; i < estimate.normals.size(); ++i) {
+    if (!estimate.normals[i].isZero()) roughness.push_back(estimate.roughness_m[i]);
+  }
+  scan.noise_m = roughness.empty() ? 0 : quantile(roughness, 0.5);
+  out.surface_normals = estimate.normals;
+  for (std::size_t i = 0; i < estimate.normals.size(); ++i) {
+    if (estimate.variation[i] > options.sampling.max_surface_variation) out.surface_normals[i].setZero();
+  }
+  scan.cloud.normals = std::move(estimate.normals);
+  return out;
+}
+
+}  // namespace tcm_icp

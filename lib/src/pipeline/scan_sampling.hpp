@@ -1,0 +1,25 @@
+#pragma once
+// The first pass over a file: counts, local origin, working cloud without outliers.
+
+#include <filesystem>
+
+#include "tcm_icp/core/run_context.hpp"
+#include "tcm_icp/core/scan.hpp"
+#include "tcm_icp/outliers/outlier_removal.hpp"
+#include "tcm_icp/pipeline/pipeline_options.hpp"
+
+namespace tcm_icp {
+
+struct SampledScan {
+  Scan scan;          ///< working cloud with outliers removed, with a normal at every point that has one
+  Points surface_normals;  ///< the same normals, zero where the place is too rough to be a surface
+  OutlierRule outliers;
+};
+
+/// Streams the file through a voxel sampler (origin: its first point), learns the outlier rule and applies it to the working
+/// cloud, then estimates normals. Memory follows max_working_points.
+/// @throws InputError, InvalidInput
+SampledScan sample_scan(const std::filesystem::path& path, const PipelineOptions& options, std::uint64_t seed,
+                        int num_threads);
+
+}  // namespace tcm_icp

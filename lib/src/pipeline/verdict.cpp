@@ -1,0 +1,44 @@
+#include "verdict.hpp"
+
+#include <cstdio>
+#include <string>
+
+namespace tcm_icp {
+namespace {
+
+std::string percent(double share) {
+  char text[16];
+  std::snprintf(text, sizeof text, "%.0f %%", 100 * share);
+  return text;
+}
+
+// What is left of the agreement after a slide by four voxels, at most, where a pose is right. On real and simulated scenes
+// right poses leave 0.16 to 0.70 in their weakest direction, wrong ones 0.79 and more, most of them above 1.
+constexpr double kMaxLeftAfterSlide = 0.75;
+constexpr double kMinConsensus = 0.08;
+constexpr std::size_t kMinAgreeing = 30;
+
+}  // namespace
+
+VerificationOptions verification_at(double voxel_m) {
+  VerificationOptions options;
+  options.gate_m = 2 * voxel_m;
+  options.tolerance_m = voxel_m / 4;
+  options.slide_m = 4 * voxel_m;
+  return options;
+}
+
+Verdict judge(const AlignmentEvidence& evidence) {
+  const double agreeing = evidence.consensus() * static_cast<double>(evidence.num_points);
+  if (agreeing < static_cast<double>(kMinAgreeing) || evidence.consensus() < kMinConsensus) {
+    return {false, "only " + percent(evidence.consensus()) + " of the points agree with the other scans"};
+  }
+  if (evidence.left_after_slide[0] > kMaxLeftAfterSlide) {
+    return {false, "ambiguous: moved along its weakest direction, it still agrees at " +
+                       percent(evidence.left_after_slide[0]) + " of as many points"};
+  }
+  return {true, percent(evidence.consensus()) + " of the points agree; " + percent(evidence.left_after_slide[0]) +
+                    " of that is left when it slides along its weakest direction"};
+}
+
+}  // namespace tcm_icp

@@ -1,0 +1,110 @@
+#include "tcm_icp/registration/verification.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "tcm_icp/core/error.hpp"
+#include "tcm_icp/core/rigid_transform.hpp"
+#include "tcm_icp/registration/refinement.hpp"
+
+namespace tcm_icp {
+namespace {
+
+using Information = Eigen::Matrix<double, 6, 6>;
+
+struct Tally {
+  std::size_t overlapping = 0;
+  std::size_t agreeing = 0;
+  std::vector<double> residuals_m;
+  Information information = Information::Zero();
+};
+
+// `frame` gives the centre and radius of the information matrix; without it only the counts are taken.
+Tally take_tally(const Cloud& points, const PyramidLevel& target, const Eigen::Isometry3d& T,
+                 const VerificationOptions& options, const TwistFrame* frame) {
+  const double min_cosine = std::cos(options.max_normal_angle_deg * std::numbers::pi / 180);
+  Tally tally;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Eigen::Vector3d p = T * points.points[i];
+    const Neighbor q = target.index.nearest_within(p, options.gate_m);
+    if (!q.found()) continue;
+    ++tally.overlapping;
+    const Eigen::Vector3d& n_target = target.cloud.normals[q.index];
+    const Eigen::Vector3d n_source = T.linear() * points.normals[i];
+    const Eigen::Vector3d& normal = n_target.isZero() ? n_source : n_target;
+    const double residual = normal.dot(p - target.cloud.points[q.index]);
+    if (frame != nullptr) {
+      tally.residuals_m.push_back(std::abs(residual));
+      Twist row;
+      row << (p - frame->centre).cross(normal) / frame->radius_m, normal;
+      tally.information += row * row.transpose();
+    }
+    // A target without a normal is no surface: nothing there can agree.
+    if (!n_target.isZero() && std::abs(residual) <= options.tolerance_m && std::abs(n_source.dot(n_target)) >= min_cosine) {
+      ++tally.agreeing;
+    }
+  }
+  return tally;
+}
+
+TwistFrame frame_of(const Cloud& cloud, const Eigen::Isometry3d& T) {
+  TwistFrame frame;
+  for (const auto& p : cloud.points) frame.centre += T * p;
+  frame.centre /= static_cast<double>(cloud.size());
+  double squared = 0;
+  for (const auto& p : cloud.points) squared += (T * p - frame.centre).squaredNorm();
+  frame.radius_m = std::sqrt(squared / static_cast<double>(cloud.size()));
+  return frame;
+}
+
+}  // namespace
+
+void VerificationOptions::validate() const {
+  const auto positive = [](double value, const char* name) {
+    if (!(value > 0)) throw InvalidOptions(std::string(name) + " must be above 0 m, not " + std::to_string(value));
+  };
+  positive(gate_m, "gate_m");
+  positive(tolerance_m, "tolerance_m");
+  positive(slide_m, "slide_m");
+  if (!(max_normal_angle_deg > 0 && max_normal_angle_deg <= 90)) {
+    throw InvalidOptions("max_normal_angle_deg must be above 0 and at most 90 degrees, not " +
+                         std::to_string(max_normal_angle_deg));
+  }
+}
+
+AlignmentEvidence verify_alignment(const Cloud& held_out, const PyramidLevel& target,
+                                   const Eigen::Isometry3d& T_target_source, const VerificationOptions& options) {
+  options.validate();
+  AlignmentEvidence evidence;
+  evidence.num_points = held_out.size();
+  evidence.tolerance_m = options.tolerance_m;
+  evidence.slide_m = options.slide_m;
+  evidence.left_after_slide.fill(1);
+  if (held_out.size() < 2) return evidence;
+  const TwistFrame frame = frame_of(held_out, T_target_source);
+  Tally tally = take_tally(held_out, target, T_target_source, options, &frame);
+  evidence.overlap = static_cast<double>(tally.overlapping) / static_cast<double>(held_out.size());
+  if (tally.agreeing == 0) return evidence;
+  evidence.inlier_share = static_cast<double>(tally.agreeing) / static_cast<double>(tally.overlapping);
+  const auto middle = tally.residuals_m.begin() + static_cast<std::ptrdiff_t>(tally.residuals_m.size() / 2);
+  std::nth_element(tally.residuals_m.begin(), middle, tally.residuals_m.end());
+  evidence.median_residual_m = *middle;
+
+  const Eigen::SelfAdjointEigenSolver<Information> axes(tally.information);
+  for (int k = 0; k < 6; ++k) {
+    double left = 0;
+    for (const double sign : {-1.0, 1.0}) {
+      const Twist step = sign * options.slide_m * axes.eigenvectors().col(k);
+      const Tally slid = take_tally(held_out, target, frame.moved(T_target_source, step), options, nullptr);
+      left = std::max(left, static_cast<double>(slid.agreeing) / static_cast<double>(tally.agreeing));
+    }
+    evidence.left_after_slide[static_cast<std::size_t>(k)] = left;
+  }
+  std::sort(evidence.left_after_slide.rbegin(), evidence.left_after_slide.rend());
+  return evidence;
+}
+
+}  // namespace tcm_icp

@@ -1,0 +1,39 @@
+#include "simulation/ground.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "simulation/draw.hpp"
+
+namespace tcm_icp {
+
+Ground::Ground(Rng& rng) {
+  for (double& s : slope_) s = uniform(rng, -0.015, 0.015);
+  for (Wave& wave : waves_) {
+    const double length = uniform(rng, 12, 45);
+    const double heading = uniform(rng, 0, 2 * std::numbers::pi);
+    wave.number = 2 * std::numbers::pi / length * Eigen::Vector2d(std::cos(heading), std::sin(heading));
+    wave.phase_rad = uniform(rng, 0, 2 * std::numbers::pi);
+    wave.height_m = 0.004 * length;
+  }
+}
+
+double Ground::height_m(const Eigen::Vector2d& at) const {
+  double z = slope_.dot(at);
+  for (const Wave& wave : waves_) z += wave.height_m * std::sin(wave.number.dot(at) + wave.phase_rad);
+  return z;
+}
+
+void Ground::add_to(TriangleMesh& mesh, double reach_m) const {
+  constexpr double kReflectivity = 0.3;
+  const int cells = static_cast<int>(std::ceil(2 * reach_m));
+  const auto at = [&](int i, int j) {
+    return lift({2 * reach_m * i / cells - reach_m, 2 * reach_m * j / cells - reach_m});
+  };
+  for (int i = 0; i < cells; ++i) {
+    for (int j = 0; j < cells; ++j)
+      add_quad(mesh, at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1), kReflectivity);
+  }
+}
+
+}  // namespace tcm_icp

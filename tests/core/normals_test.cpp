@@ -1,0 +1,72 @@
+#include "tcm_icp/core/normals.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "support/matchers.hpp"
+#include "support/random_points.hpp"
+#include "tcm_icp/core/error.hpp"
+
+namespace tcm_icp {
+namespace {
+
+TEST(Normals, OfATiltedPlaneAreItsOwnAndNothingIsRough) {
+  Rng rng = make_stream(1, "normals_test");
+  const Eigen::Vector3d normal = Eigen::Vector3d(1, -2, 2) / 3;
+  Points points = testing::random_points(1000, 10, rng);
+  for (auto& p : points) p -= normal * normal.dot(p);
+  const NormalEstimate estimate = estimate_normals(points, NeighborIndex(points), {}, 1);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    EXPECT_NEAR(std::abs(estimate.normals[i].dot(normal)), 1, 1e-9);
+    EXPECT_NEAR(estimate.roughness_m[i], 0, 1e-6);  // a root of rounding at 1e-15 of a neighbourhood of 0.5 m
+  }
+}
+
+TEST(Normals, OfASpherePointAlongTheRadius) {
+  Rng rng = make_stream(2, "normals_test");
+  Points points;
+  for (int i = 0; i < 5000; ++i) {
+    const double x = standard_normal(rng), y = standard_normal(rng), z = standard_normal(rng);
+    points.push_back(Eigen::Vector3d(x, y, z).normalized());
+  }
+  const NormalEstimate estimate = estimate_normals(points, NeighborIndex(points), {}, 1);
+  // Twelve neighbours span about 0.1 of the radius; lopsided ones tilt the plane by less than that.
+  for (std::size_t i = 0; i < points.size(); ++i)
+    EXPECT_GT(std::abs(estimate.normals[i].dot(points[i])), std::cos(0.1));
+}
+
+TEST(Normals, ALineHasNone) {
+  Points line;
+  for (int i = 0; i < 200; ++i) line.emplace_back(0.1 * i, 0, 0);
+  for (const auto& n : estimate_normals(line, NeighborIndex(line), {}, 1).normals) EXPECT_TRUE(n.isZero(0));
+}
+
+TEST(Normals, TheNumberOfThreadsDoesNotMatter) {
+  Rng rng = make_stream(3, "normals_test");
+  const Points points = testing::random_points(3000, 10, rng);
+  const NeighborIndex index(points);
+  const NormalEstimate one = estimate_normals(points, index, {}, 1);
+  for (const int threads : {2, 8}) {
+    const NormalEstimate many = estimate_normals(points, index, {}, threads);
+    EXPECT_EQ(many.normals, one.normals);
+    EXPECT_EQ(many.roughness_m, one.roughness_m);
+  }
+}
+
+TEST(Normals, RefuseBadOptions) {
+  const NeighborIndex index(Points{});
+  EXPECT_THROW(estimate_normals({}, index, {2, 48}, 1), InvalidOptions);
+  EXPECT_THROW(estimate_normals({}, index, {12, 11}, 1), InvalidOptions);
+}
+
+TEST(MedianSpacing, IsTheMedianAndNotTheMean) {
+  // Nearest others: 1, 1, 1, 1, 96.
+  const Points points{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}, {99, 0, 0}};
+  EXPECT_DOUBLE_EQ(median_spacing(points, NeighborIndex(points)), 1);
+  EXPECT_EQ(median_spacing({{1, 1, 1}}, NeighborIndex(Points{{1, 1, 1}})), 0);
+  EXPECT_EQ(median_spacing({}, NeighborIndex(Points{})), 0);
+}
+
+}  // namespace
+}  // namespace tcm_icp

@@ -1,0 +1,87 @@
+#include "tcm_icp/core/voxel_sampler.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <set>
+#include <tuple>
+
+#include "support/matchers.hpp"
+#include "support/random_points.hpp"
+#include "tcm_icp/core/error.hpp"
+
+namespace tcm_icp {
+namespace {
+
+TEST(VoxelKey, RoundsDownOnBothSidesOfZeroAndHasNoOverflow) {
+  EXPECT_EQ(voxel_key({0.9, -0.1, 2.0}, 1), (VoxelKey{0, -1, 2}));
+  EXPECT_EQ(voxel_key({1e300, -1e300, 0}, 1), voxel_key({1e301, -1e301, 0}, 1));
+}
+
+TEST(VoxelSampler, IsBoundedAndKeepsTheMean) {
+  Rng rng = make_stream(1, "voxel_test");
+  const Points points = testing::random_points(20000, 10, rng);
+  VoxelSampler sampler(500);
+  sampler.add(points);
+  const double size = sampler.voxel_size_m();
+  const Points sample = sampler.finish();
+  EXPECT_LE(sample.size(), 500u);
+  EXPECT_GT(sample.size(), 500u / 8);  // one doubling of the voxel takes at most an eighth
+  std::set<std::tuple<std::int64_t, std::int64_t, std::int64_t>> keys;
+  for (const auto& p : sample) {
+    const VoxelKey key = voxel_key(p, size);
+    keys.emplace(key.x, key.y, key.z);
+  }
+  EXPECT_EQ(keys.size(), sample.size()) << "one point to a voxel";
+}
+
+TEST(VoxelSampler, BlocksOfTheStreamDoNotMatterOnceTheVoxelIsChosen) {
+  Rng rng = make_stream(2, "voxel_test");
+  const Points points = testing::random_points(5000, 10, rng);
+  const std::span<const Eigen::Vector3d> all(points);
+  VoxelSampler one(300), many(300);
+  one.add(all.first(1000));
+  one.add(all.subspan(1000));
+  many.add(all.first(1000));
+  for (std::size_t i = 1000; i < points.size(); i += 100) many.add(all.subspan(i, 100));
+  EXPECT_EQ(one.finish(), many.finish());
+}
+
+TEST(VoxelSampler, ScalesWithTheCloud) {
+  Rng rng = make_stream(3, "voxel_test");
+  const Points points = testing::random_points(5000, 10, rng);
+  VoxelSampler small(300), large(300);
+  small.add(points);
+  large.add(testing::scaled(points, 1024));
+  EXPECT_EQ(large.voxel_size_m(), 1024 * small.voxel_size_m());
+  EXPECT_EQ(large.finish(), testing::scaled(small.finish(), 1024));
+}
+
+TEST(VoxelSampler, EqualPointsAreOne) {
+  VoxelSampler sampler(8);
+  sampler.add(Points(100, Eigen::Vector3d(1, 2, 3)));
+  EXPECT_EQ(sampler.voxel_size_m(), 0);
+  EXPECT_EQ(sampler.finish(), (Points{{1, 2, 3}}));
+}
+
+TEST(VoxelSampler, NothingGivesNothingAndSevenVoxelsAreTooFew) {
+  VoxelSampler sampler(8);
+  sampler.add({});
+  EXPECT_TRUE(sampler.finish().empty());
+  EXPECT_THROW(VoxelSampler(7), InvalidOptions);
+}
+
+TEST(VoxelDownsample, TakesTheMeanOfEachVoxelInOrderOfAppearance) {
+  const Cloud sample = voxel_downsample({{{1.2, 0.5, 0.5}, {0.2, 0.5, 0.5}, {1.6, 0.5, 0.5}}, {}}, 1);
+  EXPECT_TRUE(testing::are_points_near({{1.4, 0.5, 0.5}, {0.2, 0.5, 0.5}}, sample.points, 1e-15));
+}
+
+TEST(VoxelDownsample, NormalsOfOppositeSignAreTheSameSurface) {
+  const Cloud sample = voxel_downsample({{{0.5, 0.5, 0.5}, {0.6, 0.5, 0.5}}, {{0, 0, 1}, {0, 0, -1}}}, 1);
+  ASSERT_EQ(sample.normals.size(), 1u);
+  EXPECT_NEAR(std::abs(sample.normals[0].z()), 1, 1e-15);
+}
+
+}  // namespace
+}  // namespace tcm_icp
