@@ -20,7 +20,7 @@ while (($# > 0)); do
   case $1 in
     --tests) packages+=(libgtest-dev) ;;
     --checks) packages+=(clang-format shellcheck) ;;
-    --benchmarks) packages+=(libbenchmark-dev libnanoflann-dev libpcl-dev) ;;
+    --benchmarks) packages+=(libbenchmark-dev libnanoflann-dev libpcl-dev python3) ;;
     -h | --help) usage; exit 0 ;;
     *) usage >&2; exit 1 ;;
   esac

@@ -1,18 +1,17 @@
 #include "tcm_icp/core/neighbor_index.hpp"
 
-#include <CGAL/Fuzzy_sphere.h>
 #include <CGAL/Kd_tree.h>
-#include <CGAL/Orthogonal_k_neighbor_search.h>
 #include <CGAL/Search_traits_3.h>
 #include <CGAL/Search_traits_adapter.h>
 #include <CGAL/Simple_cartesian.h>
-#include <CGAL/property_map.h>
 #include <CGAL/Splitters.h>
+#include <CGAL/property_map.h>
 
 #include <algorithm>
 #include <boost/iterator/counting_iterator.hpp>
 #include <string>
 
+#include "bounded_descent.hpp"
 #include "tcm_icp/core/error.hpp"
 
 namespace tcm_icp {
@@ -37,9 +36,6 @@ using BaseTraits = CGAL::Search_traits_3<Kernel>;
 using Traits = CGAL::Search_traits_adapter<std::uint32_t, PointOfIndex, BaseTraits>;
 using Splitter = CGAL::Sliding_midpoint<Traits>;
 using Tree = CGAL::Kd_tree<Traits, Splitter, CGAL::Tag_true, CGAL::Tag_true>;  // extended nodes, cached coordinates
-using Distance = CGAL::Distance_adapter<std::uint32_t, PointOfIndex, CGAL::Euclidean_distance<BaseTraits>>;
-using Search = CGAL::Orthogonal_k_neighbor_search<Traits, Distance, Splitter, Tree>;
-using Sphere = CGAL::Fuzzy_sphere<Traits>;
 
 constexpr unsigned kBucketSize = 24;  // 20 to 40 are equally fast
 
@@ -50,16 +46,44 @@ bool nearer(const Neighbor& a, const Neighbor& b) {
                                                         : a.index < b.index;
 }
 
+struct NearestOne {
+  Neighbor best;  ///< starts at the radius; no point has the index it starts with
+  double limit_m2() const { return best.squared_distance_m2; }
+  void take(std::uint32_t index, double squared_m2) {
+    const Neighbor candidate{index, squared_m2};
+    if (nearer(candidate, best)) best = candidate;
+  }
+};
+
+// The k nearest so far, sorted; places not yet taken are infinitely far. Few candidates get in, so that a heap is
+// slower.
+struct NearestK {
+  std::vector<Neighbor>& sorted;
+  double limit_m2() const { return sorted.back().squared_distance_m2; }
+  void take(std::uint32_t index, double squared_m2) {
+    const Neighbor candidate{index, squared_m2};
+    if (!nearer(candidate, sorted.back())) return;
+    std::size_t i = sorted.size() - 1;
+    for (; i > 0 && nearer(candidate, sorted[i - 1]); --i) sorted[i] = sorted[i - 1];
+    sorted[i] = candidate;
+  }
+};
+
+struct AllWithin {
+  double squared_radius_m2;
+  std::vector<Neighbor>& found;
+  double limit_m2() const { return squared_radius_m2; }
+  void take(std::uint32_t index, double squared_m2) { found.push_back({index, squared_m2}); }
+};
+
 }  // namespace
 
 struct NeighborIndex::Impl {
   explicit Impl(std::span<const Eigen::Vector3d> input)
       : points(copy(input)),
-        map{points.data()},
         tree(boost::counting_iterator<std::uint32_t>(0),
              boost::counting_iterator<std::uint32_t>(static_cast<std::uint32_t>(points.size())), Splitter(kBucketSize),
-             Traits(map)),
-        distance(map) {
+             Traits(PointOfIndex{points.data()})) {
     if (!points.empty()) tree.build();  // or the first query would, and no longer be const
   }
 
@@ -76,10 +100,14 @@ struct NeighborIndex::Impl {
     return out;
   }
 
+  /// Shows the visitor what may lie within its limit: nothing where the index is empty or the query not finite.
+  template <typename Visitor>
+  void search(const Eigen::Vector3d& query, Visitor& visitor) const {
+    if (!points.empty() && query.allFinite()) BoundedDescent(tree, query, visitor).run();
+  }
+
   std::vector<Point> points;
-  PointOfIndex map;
   Tree tree;
-  Distance distance;
 };
 
 NeighborIndex::NeighborIndex(std::span<const Eigen::Vector3d> points) : impl_(std::make_unique<Impl>(points)) {}
@@ -90,32 +118,29 @@ NeighborIndex& NeighborIndex::operator=(NeighborIndex&&) noexcept = default;
 std::size_t NeighborIndex::size() const { return impl_->points.size(); }
 
 Neighbor NeighborIndex::nearest(const Eigen::Vector3d& query) const {
-  if (impl_->points.empty()) return {};
-  const Search search(impl_->tree, to_point(query), 1, 0.0, true, impl_->distance);
-  return {search.begin()->first, search.begin()->second};
+  return nearest_within(query, std::numeric_limits<double>::infinity());
 }
 
 Neighbor NeighborIndex::nearest_within(const Eigen::Vector3d& query, double radius_m) const {
-  const Neighbor n = nearest(query);
-  return n.squared_distance_m2 <= radius_m * radius_m ? n : Neighbor{};
+  constexpr std::uint32_t kNone = Neighbor{}.index;
+  NearestOne visitor{{kNone, radius_m * radius_m}};
+  impl_->search(query, visitor);
+  return visitor.best.index != kNone ? visitor.best : Neighbor{};
 }
 
 void NeighborIndex::nearest_k(const Eigen::Vector3d& query, std::size_t k, std::vector<Neighbor>& out) const {
   out.clear();
-  if (impl_->points.empty() || k == 0) return;
-  const Search search(impl_->tree, to_point(query), static_cast<unsigned>(std::min(k, impl_->points.size())), 0.0, true,
-                      impl_->distance);
-  for (const auto& [index, squared] : search) out.push_back({index, squared});
-  std::sort(out.begin(), out.end(), nearer);
+  const std::size_t count = std::min(k, size());
+  if (count == 0 || !query.allFinite()) return;
+  out.resize(count);
+  NearestK visitor{out};
+  impl_->search(query, visitor);
 }
 
 void NeighborIndex::within(const Eigen::Vector3d& query, double radius_m, std::vector<Neighbor>& out) const {
   out.clear();
-  if (impl_->points.empty()) return;
-  const Point centre = to_point(query);
-  std::vector<std::uint32_t> indices;
-  impl_->tree.search(std::back_inserter(indices), Sphere(centre, radius_m, 0.0, Traits(impl_->map)));
-  for (const std::uint32_t i : indices) out.push_back({i, CGAL::squared_distance(centre, impl_->points[i])});
+  AllWithin visitor{radius_m * radius_m, out};
+  impl_->search(query, visitor);
   std::sort(out.begin(), out.end(), nearer);
 }
 

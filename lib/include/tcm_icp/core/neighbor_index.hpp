@@ -18,7 +18,9 @@ struct Neighbor {
   bool found() const { return squared_distance_m2 < std::numeric_limits<double>::infinity(); }
 };
 
-/// A kd-tree over a copy of `points`. Built in the constructor, so every query is const and thread-safe.
+/// A kd-tree over a copy of `points`. Built in the constructor, so every query is const and thread-safe. Answers are
+/// exact and depend on the points alone: of equally near points the one with the lowest index counts as nearer. A query
+/// that is not finite finds nothing.
 /// Cost: O(N log N) to build, O(log N) expected a query; about 60 bytes a point.
 class NeighborIndex {
  public:
@@ -30,11 +32,11 @@ class NeighborIndex {
 
   std::size_t size() const;
 
-  /// The nearest point; not found() where the index is empty. Between equally near points the choice is the tree's, and
-  /// always the same for the same points.
+  /// The nearest point; not found() where the index is empty.
   Neighbor nearest(const Eigen::Vector3d& query) const;
 
-  /// The nearest point within `radius_m`; not found() where there is none. Faster than nearest() where most miss.
+  /// The nearest point within `radius_m`; not found() where there is none. The search starts at the radius, so a miss
+  /// is cheap.
   Neighbor nearest_within(const Eigen::Vector3d& query, double radius_m) const;
 
   /// Up to k nearest points, by distance and then index.
