@@ -49,18 +49,15 @@ void print_table(const PipelineResult& result, std::ostream& out) {
       << "overlap" << std::setw(9) << "in noise" << std::setw(12) << "residual" << "  reason\n";
   for (std::size_t i = 0; i < result.scans.size(); ++i) {
     const auto& pose = result.poses[i];
-    const MergeRecord* last = nullptr;
-    for (const auto& m : result.merges) {
-      if (m.scan == i) last = &m;
-    }
+    const auto& evidence = result.evidence[i];
     const char* status = pose.status == ScanStatus::kReference      ? "reference"
                          : pose.status == ScanStatus::kUnregistered ? "unregistered"
                                                                     : "registered";
     out << std::left << std::setw(static_cast<int>(width)) << pose.file << "  " << std::setw(13) << status << std::right;
-    if (last != nullptr && last->evidence) {
+    if (evidence) {
       const auto percent = [](double share) { return std::to_string(static_cast<int>(100 * share + 0.5)) + " %"; };
-      out << std::setw(9) << percent(last->evidence->overlap) << std::setw(9) << percent(last->evidence->inlier_share)
-          << std::setw(12) << std::setprecision(3) << last->evidence->median_residual_m;
+      out << std::setw(9) << percent(evidence->overlap) << std::setw(9) << percent(evidence->inlier_share)
+          << std::setw(12) << std::setprecision(3) << evidence->median_residual_m;
     } else {
       out << std::setw(30) << "";
     }

@@ -1,12 +1,29 @@
 #include "link_verification.hpp"
 
+#include "merged_cloud.hpp"
 #include "tcm_icp/core/parallel.hpp"
 #include "verdict.hpp"
 
 namespace tcm_icp {
 
+AlignmentEvidence verify_against_neighbors(const std::vector<PreparedScan>& scans, const ScanPairs& pairs,
+                                           std::size_t scan, const std::vector<Eigen::Isometry3d>& T_reference_scan) {
+  const double voxel_m = scans[scan].pyramid.level(0).voxel_size_m;
+  MergedCloud neighbors(voxel_m);
+  bool any = false;
+  for (const auto& [a, b] : pairs) {
+    if (a != scan && b != scan) continue;
+    const std::size_t other = a == scan ? b : a;
+    neighbors.add(scans[other].pyramid.level(0).cloud, T_reference_scan[other]);
+    any = true;
+  }
+  if (!any) return {};
+  return verify_alignment(scans[scan].held_out_sample, neighbors.level(), T_reference_scan[scan],
+                          verification_at(voxel_m));
+}
+
 std::vector<LinkRecord> verify_links(const std::vector<PreparedScan>& scans,
-                                     const std::vector<std::pair<std::size_t, std::size_t>>& pairs,
+                                     const ScanPairs& pairs,
                                      const std::vector<Eigen::Isometry3d>& T_reference_scan, int num_threads) {
   std::vector<LinkRecord> links(pairs.size());
   parallel_for(num_threads, pairs.size(), [&](std::size_t begin, std::size_t end) {

@@ -2,17 +2,21 @@
 // Every pair of placed scans that overlaps, judged by itself; and what follows for the scans.
 
 #include <Eigen/Geometry>
-#include <utility>
 #include <vector>
 
+#include "adjustment.hpp"
 #include "prepared_scan.hpp"
 #include "tcm_icp/pipeline/pipeline_result.hpp"
 
 namespace tcm_icp {
 
+/// Evidence for the pose of one scan against the union of its neighbours among the pairs.
+AlignmentEvidence verify_against_neighbors(const std::vector<PreparedScan>& scans, const ScanPairs& pairs,
+                                           std::size_t scan, const std::vector<Eigen::Isometry3d>& T_reference_scan);
+
 /// One record a pair, in the pairs' order.
 std::vector<LinkRecord> verify_links(const std::vector<PreparedScan>& scans,
-                                     const std::vector<std::pair<std::size_t, std::size_t>>& pairs,
+                                     const ScanPairs& pairs,
                                      const std::vector<Eigen::Isometry3d>& T_reference_scan, int num_threads);
 
 }  // namespace tcm_icp

@@ -6,12 +6,22 @@
 
 namespace tcm_icp {
 
-void MergedCloud::merge(const Cloud& cloud, const Eigen::Isometry3d& T_reference_scan) {
+void MergedCloud::add(const Cloud& cloud, const Eigen::Isometry3d& T_reference_scan) {
   const Cloud moved = transformed(cloud, T_reference_scan);
   cloud_.points.insert(cloud_.points.end(), moved.points.begin(), moved.points.end());
   cloud_.normals.insert(cloud_.normals.end(), moved.normals.begin(), moved.normals.end());
-  cloud_ = voxel_downsample(cloud_, voxel_size_m_);
-  pyramid_.emplace(cloud_, voxel_size_m_, kNumPyramidLevels);
+}
+
+void MergedCloud::thin() { cloud_ = voxel_downsample(cloud_, voxel_size_m_); }
+
+ScanPyramid MergedCloud::pyramid() {
+  thin();
+  return ScanPyramid(cloud_, voxel_size_m_, kNumPyramidLevels);
+}
+
+PyramidLevel MergedCloud::level() {
+  thin();
+  return {voxel_size_m_, cloud_, NeighborIndex(cloud_.points)};
 }
 
 }  // namespace tcm_icp

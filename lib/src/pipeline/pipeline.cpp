@@ -11,6 +11,7 @@
 #include "prepared_scan.hpp"
 #include "scan_sampling.hpp"
 #include "stage_clock.hpp"
+#include "verdict.hpp"
 #include "tcm_icp/core/error.hpp"
 #include "tcm_icp/core/parallel.hpp"
 #include "tcm_icp/graph/correspondence_measure.hpp"
@@ -65,11 +66,10 @@ class Run {
     build_graph();
     clock_.begin("merge");
     merge_scans();
-    clock_.begin("adjust");
-    adjust();
-    clock_.begin("verify");
-    verify();
+    clock_.begin("adjust and verify");
+    adjust_and_verify();
     clock_.end();
+    report_poses();
     return std::move(result_);
   }
 
@@ -158,7 +158,8 @@ class Run {
     placed_.assign(n, false);
     placed_[reference] = true;
     MergedCloud merged(resolutions_.coarse_m);
-    merged.merge(scans_[reference].pyramid.level(0).cloud, Eigen::Isometry3d::Identity());
+    merged.add(scans_[reference].pyramid.level(0).cloud, Eigen::Isometry3d::Identity());
+    ScanPyramid target = merged.pyramid();
 
     std::vector<int> attempts(n, 0);
     std::vector<std::size_t> tried_at(n, 0);  // size of S, in scans, at the last attempt
@@ -171,7 +172,7 @@ class Run {
       }
       if (candidates.empty()) break;
       context_.report("merging", num_merged, n);
-      compute_tcm(merged, candidates);
+      compute_tcm(target, candidates);
       const std::size_t q = next_scan_to_merge(candidates);
       MergeRecord record;
       record.scan = q;
@@ -180,12 +181,13 @@ class Run {
       Rng rng = make_stream(context_.seed, "placement", sampled_[q].scan.file + "#" + std::to_string(record.attempt));
       const Eigen::Isometry3d T_init = T_init_[reference].inverse() * T_init_[q];
       const auto place = paper() ? place_scan_as_printed : place_scan;
-      const Eigen::Isometry3d T = place(scans_[q], merged.pyramid(), T_init, options_, rng, record);
+      const Eigen::Isometry3d T = place(scans_[q], target, T_init, options_, rng, record);
       tried_at[q] = num_merged;
       if (record.accepted) {
         T_reference_scan_[q] = T;
         placed_[q] = true;
-        merged.merge(scans_[q].pyramid.level(0).cloud, T);
+        merged.add(scans_[q].pyramid.level(0).cloud, T);
+        target = merged.pyramid();
         ++num_merged;
       }
       context_.debug(sampled_[q].scan.file + (record.accepted ? " merged: " : " set aside: ") + record.reason);
@@ -193,17 +195,17 @@ class Run {
     }
   }
 
-  void compute_tcm(const MergedCloud& merged, std::vector<MergeCandidate>& candidates) const {
+  void compute_tcm(const ScanPyramid& merged, std::vector<MergeCandidate>& candidates) const {
     const std::size_t reference = result_.reference;
     if (paper()) {
-      const TcmCloud s(merged.pyramid().level(0).cloud.points);
+      const TcmCloud s(merged.level(0).cloud.points);
       for (auto& c : candidates) {
         c.terms = tcm_terms(s, TcmCloud(scans_[c.scan].pyramid.level(0).cloud.points),
                             T_init_[reference].inverse() * T_init_[c.scan]);
       }
       return;
     }
-    const RobustTcmCloud s(merged.pyramid().level(1).cloud.points, options_.tcm);
+    const RobustTcmCloud s(merged.level(1).cloud.points, options_.tcm);
     parallel_for(context_.num_threads, candidates.size(), [&](std::size_t begin, std::size_t end) {
       for (std::size_t k = begin; k < end; ++k) {
         const RobustTcmCloud cloud(scans_[candidates[k].scan].tcm_points, options_.tcm);
@@ -212,43 +214,73 @@ class Run {
     });
   }
 
-  void adjust() {
-    pairs_ = overlapping_pairs(scans_, T_reference_scan_, placed_, kMinLinkOverlap, context_.num_threads);
-    if (paper()) return;
-    adjust_poses(scans_, pairs_, result_.reference, resolutions_, options_.placement, context_, T_reference_scan_);
+  // Poses move together, then each is judged again against all its neighbours: what a merge let pass does not pass here. One
+  // scan at a time is taken out, the one that agrees least, because a wrong neighbour spoils the evidence of right ones.
+  void adjust_and_verify() {
+    result_.evidence.assign(scans_.size(), std::nullopt);
+    reasons_.assign(scans_.size(), "");
+    for (const auto& m : result_.merges) {
+      result_.evidence[m.scan] = m.evidence;
+      reasons_[m.scan] = m.reason;
+    }
+    while (true) {
+      pairs_ = overlapping_pairs(scans_, T_reference_scan_, placed_, kMinLinkOverlap, context_.num_threads);
+      if (paper()) break;
+      adjust_poses(scans_, pairs_, result_.reference, resolutions_, options_.placement, context_, T_reference_scan_);
+      const std::optional<std::size_t> worst = verify_placed();
+      if (!worst) break;
+      placed_[*worst] = false;
+      context_.debug(sampled_[*worst].scan.file + " taken out again: " + reasons_[*worst]);
+    }
+    result_.links = verify_links(scans_, pairs_, T_reference_scan_, context_.num_threads);
   }
 
-  void verify() {
+  /// Fills in the evidence of all placed scans; returns the one that agrees least among those that fail.
+  std::optional<std::size_t> verify_placed() {
     context_.report("verifying", 0, 1);
-    result_.links = verify_links(scans_, pairs_, T_reference_scan_, context_.num_threads);
+    parallel_for(context_.num_threads, scans_.size(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        if (!placed_[i] || i == result_.reference) continue;
+        const double runner_up = result_.evidence[i]->runner_up;
+        result_.evidence[i] = verify_against_neighbors(scans_, pairs_, i, T_reference_scan_);
+        result_.evidence[i]->runner_up = runner_up;
+      }
+    });
+    std::optional<std::size_t> worst;
+    for (std::size_t i = 0; i < scans_.size(); ++i) {
+      if (!placed_[i] || i == result_.reference) continue;
+      const Verdict verdict = judge(*result_.evidence[i]);
+      reasons_[i] = verdict.reason;
+      if (verdict.accepted) continue;
+      if (!worst || result_.evidence[i]->consensus() < result_.evidence[*worst]->consensus()) worst = i;
+    }
+    return worst;
+  }
+
+  void report_poses() {
     int component = 0;
     const Eigen::Translation3d from_reference(sampled_[result_.reference].scan.origin);
     for (std::size_t i = 0; i < scans_.size(); ++i) {
       ScanPose pose;
       pose.file = sampled_[i].scan.file;
-      if (placed_[i]) {
-        pose.status = i == result_.reference ? ScanStatus::kReference : ScanStatus::kRegistered;
+      pose.reason = reasons_[i];
+      if (i == result_.reference) {
+        pose.status = ScanStatus::kReference;
         pose.verdict = "accepted";
+        pose.reason = "the reference";
+      } else if (placed_[i]) {
+        pose.status = ScanStatus::kRegistered;
+        pose.verdict = paper() ? "doubtful" : "accepted";
         // Raw coordinates to the reference's raw coordinates: both local origins are put back.
         pose.T_reference_scan =
             from_reference * T_reference_scan_[i] * Eigen::Translation3d(-sampled_[i].scan.origin);
-        if (i == result_.reference) pose.T_reference_scan = Eigen::Isometry3d::Identity();
-        pose.reason = i == result_.reference ? "the reference" : last_reason(i);
       } else {
         pose.status = ScanStatus::kUnregistered;
         pose.component = ++component;
         pose.verdict = "rejected";
-        pose.reason = last_reason(i);
       }
       result_.poses.push_back(std::move(pose));
     }
-  }
-
-  std::string last_reason(std::size_t scan) const {
-    for (auto it = result_.merges.rbegin(); it != result_.merges.rend(); ++it) {
-      if (it->scan == scan) return it->reason;
-    }
-    return "";
   }
 
   const PipelineOptions& options_;
@@ -261,6 +293,7 @@ class Run {
   std::vector<Eigen::Isometry3d> T_init_;            // common frame of the initial poses <- local frame
   std::vector<Eigen::Isometry3d> T_reference_scan_;  // local frames
   std::vector<bool> placed_;
+  std::vector<std::string> reasons_;  // of each scan's status
   ScanPairs pairs_;
 };
 

@@ -164,6 +164,7 @@ std::string report_json(const PipelineResult& result, const PipelineOptions& opt
     report["scans"][i]["status"] = name_of(result.poses[i].status);
     report["scans"][i]["verdict"] = result.poses[i].verdict;
     report["scans"][i]["reason"] = result.poses[i].reason;
+    report["scans"][i]["evidence"] = result.evidence[i] ? to_json(*result.evidence[i]) : Json(nullptr);
   }
   report["graph"] = graph_json(result);
   report["merges"] = Json::array();

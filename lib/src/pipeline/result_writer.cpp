@@ -6,6 +6,7 @@
 
 #include "stage_clock.hpp"
 #include "tcm_icp/core/error.hpp"
+#include "tcm_icp/core/parallel.hpp"
 #include "tcm_icp/io/pose_io.hpp"
 #include "tcm_icp/io/registered_ply_writer.hpp"
 #include "tcm_icp/io/scan_reader.hpp"
@@ -81,6 +82,7 @@ void write_registered_cloud(const fs::path& path, const std::vector<fs::path>& p
   for (const auto& p : paths) attributes.push_back(ScanReader(p).attributes());
   RegisteredPlyWriter writer(path, attributes, result.scans[result.reference].file);
   PointBlock block, kept;
+  std::vector<char> outlier;
   for (std::size_t i = 0; i < paths.size(); ++i) {
     if (result.poses[i].status == ScanStatus::kUnregistered) continue;
     const ScanSummary& scan = result.scans[i];
@@ -90,8 +92,14 @@ void write_registered_cloud(const fs::path& path, const std::vector<fs::path>& p
       context.report("writing", i, paths.size());
       kept.points.clear();
       kept.attributes.clear();
+      outlier.resize(block.size());
+      parallel_for(context.num_threads, block.size(), [&](std::size_t begin, std::size_t end) {
+        for (std::size_t k = begin; k < end; ++k) {
+          outlier[k] = scan.outliers.is_outlier(block.points[k] - scan.origin) ? 1 : 0;
+        }
+      });
       for (std::size_t k = 0; k < block.size(); ++k) {
-        if (scan.outliers.is_outlier(block.points[k] - scan.origin)) continue;
+        if (outlier[k] != 0) continue;
         kept.points.push_back(block.points[k]);
         const auto* bytes = block.attributes.data() + k * stride;
         kept.attributes.insert(kept.attributes.end(), bytes, bytes + stride);

@@ -62,6 +62,9 @@ struct PipelineResult {
   std::size_t reference = 0;
   std::vector<ScanSummary> scans;
   std::vector<ScanPose> poses;  ///< for raw coordinates, in the order of the scans
+  /// Of each scan's final pose against all its neighbours; for a scan that is not registered, of its last attempt. Nothing
+  /// for the reference, and in the paper profile.
+  std::vector<std::optional<AlignmentEvidence>> evidence;
   CorrespondenceGraph graph;
   std::vector<MergeRecord> merges;
   std::vector<LinkRecord> links;
