@@ -25,21 +25,14 @@ class VoxelTable {
  public:
   static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
-  explicit VoxelTable(std::size_t capacity) {
-    std::size_t slots = 16;
-    while (slots < 2 * capacity) slots *= 2;
-    slots_.resize(slots);
-  }
+  VoxelTable() : slots_(1024) {}
 
   /// The voxel's position; `next` is stored and returned where the voxel is new.
   std::uint32_t find_or_insert(const VoxelKey& key, std::uint32_t next) {
-    const std::size_t mask = slots_.size() - 1;
-    std::size_t i = VoxelKeyHash{}(key)&mask;
-    while (slots_[i].position != kNone) {
-      if (slots_[i].key == key) return slots_[i].position;
-      i = (i + 1) & mask;
-    }
-    slots_[i] = {key, next};
+    Slot& slot = find(key);
+    if (slot.position != kNone) return slot.position;
+    slot = {key, next};
+    if (2 * ++num_used_ > slots_.size()) grow();
     return next;
   }
 
@@ -48,7 +41,25 @@ class VoxelTable {
     VoxelKey key;
     std::uint32_t position = kNone;
   };
+
+  Slot& find(const VoxelKey& key) {
+    const std::size_t mask = slots_.size() - 1;
+    std::size_t i = VoxelKeyHash{}(key)&mask;
+    while (slots_[i].position != kNone && !(slots_[i].key == key)) i = (i + 1) & mask;
+    return slots_[i];
+  }
+
+  // Begun small: as long as the table fits the cache a look-up costs a tenth.
+  void grow() {
+    std::vector<Slot> old(2 * slots_.size());
+    old.swap(slots_);
+    for (const Slot& slot : old) {
+      if (slot.position != kNone) find(slot.key) = slot;
+    }
+  }
+
   std::vector<Slot> slots_;
+  std::size_t num_used_ = 0;
 };
 
 struct Voxel {
@@ -79,7 +90,7 @@ std::size_t VoxelKeyHash::operator()(const VoxelKey& key) const {
 }
 
 struct VoxelSampler::Impl {
-  explicit Impl(std::size_t max) : max_voxels(max), table(max + 1) {}
+  explicit Impl(std::size_t max) : max_voxels(max) {}
 
   std::size_t max_voxels;
   double size = 0;
@@ -115,7 +126,7 @@ struct VoxelSampler::Impl {
   void coarsen() {
     std::vector<Voxel> finer;
     finer.swap(voxels);
-    table = VoxelTable(max_voxels + 1);
+    table = VoxelTable();
     size *= 2;
     for (const auto& v : finer) {
       // Arithmetic shift: floor(k / 2) for negative keys too.
@@ -167,17 +178,18 @@ Points VoxelSampler::finish() {
 
 double VoxelSampler::voxel_size_m() const { return impl_->size; }
 
-std::size_t count_voxels(const Points& points, double voxel_size_m) {
-  VoxelTable table(points.size());
+std::size_t count_voxels(const Points& points, double voxel_size_m, std::size_t stop_at) {
+  VoxelTable table;
   std::uint32_t count = 0;
   for (const auto& p : points) {
+    if (count >= stop_at) break;
     if (table.find_or_insert(voxel_key(p, voxel_size_m), count) == count) ++count;
   }
   return count;
 }
 
 Cloud voxel_downsample(const Cloud& cloud, double voxel_size_m) {
-  VoxelTable table(cloud.size());
+  VoxelTable table;
   std::vector<Voxel> voxels;
   std::vector<std::uint32_t> voxel_of(cloud.size());
   for (std::size_t i = 0; i < cloud.size(); ++i) {

@@ -34,7 +34,8 @@ double voxel_size_for(const Points& points, std::size_t num_voxels) {
   if (!(coarse > 0)) throw InvalidInput("all points of a cloud are equal: no voxel size can be derived");
   // Coarse to fine by halves, so that the dense grids are only counted near the answer.
   double fine = coarse;
-  const auto enough = [&](double size) { return count_voxels(points, size) >= std::min(num_voxels, points.size() / 2); };
+  const std::size_t wanted = std::min(num_voxels, points.size() / 2);
+  const auto enough = [&](double size) { return count_voxels(points, size, wanted) >= wanted; };
   while (!enough(fine)) {
     coarse = fine;
     fine /= 2;

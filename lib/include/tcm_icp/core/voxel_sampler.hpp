@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <span>
 #include <vector>
@@ -50,8 +51,9 @@ class VoxelSampler {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Number of voxels of the given size that hold a point. O(N).
-std::size_t count_voxels(const Points& points, double voxel_size_m);
+/// Number of voxels of the given size that hold a point; counting ends at `stop_at`. O(N).
+std::size_t count_voxels(const Points& points, double voxel_size_m,
+                         std::size_t stop_at = std::numeric_limits<std::size_t>::max());
 
 /// One mean point per voxel of the given size; normals, where there are any, are averaged as axes of the point nearest the mean.
 Cloud voxel_downsample(const Cloud& cloud, double voxel_size_m);
