@@ -36,9 +36,10 @@ class ScanPyramid {
   std::vector<PyramidLevel> levels_;
 };
 
-/// Voxel edge [m] at which the points occupy about `num_voxels` voxels, by bisection on the edge's logarithm: measured, because
-/// the spacing along a scan line says little about the area a scan covers. The points' own spacing where they are fewer.
-/// O(N) a step, about ten steps.
+/// Voxel edge [m] at which the points occupy about `num_voxels` voxels, or half as many as there are points where that is
+/// fewer. Measured by bisection on the edge's logarithm, because the spacing along a scan line says little about the area a
+/// scan covers. O(N) a step, about ten steps.
+/// @throws InvalidInput  if all points are equal
 double voxel_size_for(const Points& points, std::size_t num_voxels);
 
 }  // namespace tcm_icp
