@@ -17,9 +17,7 @@
 namespace tcm_icp::app {
 namespace {
 
-std::vector<std::filesystem::path> paths_of(const RegisterOptions& o) {
-  return {o.scans.begin(), o.scans.end()};
-}
+std::vector<std::filesystem::path> paths_of(const RegisterOptions& o) { return {o.scans.begin(), o.scans.end()}; }
 
 void check_usage(const RegisterOptions& o) {
   if (o.scans.size() < 2) {
@@ -45,15 +43,18 @@ std::string joined(const Arguments& arguments) {
 void print_table(const PipelineResult& result, std::ostream& out) {
   std::size_t width = 4;
   for (const auto& s : result.scans) width = std::max(width, s.file.size());
-  out << std::left << std::setw(static_cast<int>(width)) << "scan" << "  " << std::setw(13) << "status" << std::right << std::setw(9)
-      << "overlap" << std::setw(9) << "in noise" << std::setw(12) << "residual" << "  reason\n";
+  out << std::left << std::setw(static_cast<int>(width)) << "scan"
+      << "  " << std::setw(13) << "status" << std::right << std::setw(9) << "overlap" << std::setw(9) << "in noise"
+      << std::setw(12) << "residual"
+      << "  reason\n";
   for (std::size_t i = 0; i < result.scans.size(); ++i) {
     const auto& pose = result.poses[i];
     const auto& evidence = result.evidence[i];
     const char* status = pose.status == ScanStatus::kReference      ? "reference"
                          : pose.status == ScanStatus::kUnregistered ? "unregistered"
                                                                     : "registered";
-    out << std::left << std::setw(static_cast<int>(width)) << pose.file << "  " << std::setw(13) << status << std::right;
+    out << std::left << std::setw(static_cast<int>(width)) << pose.file << "  " << std::setw(13) << status
+        << std::right;
     if (evidence) {
       const auto percent = [](double share) { return std::to_string(static_cast<int>(100 * share + 0.5)) + " %"; };
       out << std::setw(9) << percent(evidence->overlap) << std::setw(9) << percent(evidence->inlier_share)

@@ -1,6 +1,6 @@
 #pragma once
-// The subcommands of tcm-icp. Each takes the arguments behind its name, writes results to stdout or files and messages to
-// stderr, and returns an exit code. Errors are thrown; main.cpp turns them into messages and exit codes.
+// The subcommands of tcm-icp. Each takes the arguments behind its name, writes results to stdout or files and messages
+// to stderr, and returns an exit code. Errors are thrown; main.cpp turns them into messages and exit codes.
 
 #include <string>
 #include <vector>

@@ -26,7 +26,10 @@ void catch_interrupts() {
 }
 
 Console::Console(bool quiet, bool verbose)
-    : quiet_(quiet), verbose_(verbose), terminal_(isatty(STDERR_FILENO) == 1), start_(std::chrono::steady_clock::now()) {}
+    : quiet_(quiet),
+      verbose_(verbose),
+      terminal_(isatty(STDERR_FILENO) == 1),
+      start_(std::chrono::steady_clock::now()) {}
 
 Console::~Console() { finish(); }
 

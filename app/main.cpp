@@ -28,7 +28,8 @@ constexpr std::array kCommands{
 };
 
 void print_help(std::ostream& out) {
-  out << "tcm-icp " << kVersion << ": registers many LiDAR scans into one frame\n\nUsage: tcm-icp COMMAND [OPTIONS]\n\n";
+  out << "tcm-icp " << kVersion
+      << ": registers many LiDAR scans into one frame\n\nUsage: tcm-icp COMMAND [OPTIONS]\n\n";
   for (const auto& c : kCommands) out << "  " << c.name << std::string(12 - c.name.size(), ' ') << c.summary << '\n';
   out << "\n'tcm-icp COMMAND --help' lists a command's options, 'tcm-icp --version' the version.\n"
          "Exit codes: 0 all scans registered; 1 wrong usage; 2 input cannot be read; 3 some scan is unregistered;\n"
@@ -70,7 +71,8 @@ int main(int argc, char** argv) {
   } catch (const tcm_icp::InvalidOptions& e) {
     return fail(kUsageError, e.what());
   } catch (const boost::program_options::error& e) {
-    return fail(kUsageError, std::string(e.what()) + "; 'tcm-icp " + (argc > 1 ? argv[1] : "") + " --help' lists the options");
+    return fail(kUsageError,
+                std::string(e.what()) + "; 'tcm-icp " + (argc > 1 ? argv[1] : "") + " --help' lists the options");
   } catch (const tcm_icp::OutputError& e) {
     return fail(kOutputError, e.what());
   } catch (const tcm_icp::Error& e) {

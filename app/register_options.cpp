@@ -79,58 +79,62 @@ auto* value(T& target) {
 po::options_description configurable(RegisterOptions& o, Choices& c) {
   PipelineOptions& p = o.pipeline;
   po::options_description main("Method");
-  main.add_options()
-      ("profile", value(c.profile), "robust: past the paper, verified; paper: to the letter")
-      ("init", value(o.initial_poses), "file of initial poses, as poses.json or truth.json has them")
-      ("reference", value(p.reference), "file of the reference scan; empty: the correspondence graph chooses")
-      ("graph-threshold", value(p.graph_threshold), "correspondence measure below which two scans are connected; 0: from the data")
-      ("solver", value(c.solver), "simplex solver: glpk or cgal (exact, slow, for comparison)")
-      ("seed", value(o.seed), "seed of all random numbers")
-      ("threads", value(o.threads), "threads; 0: all of the machine; the result is the same for any number");
+  main.add_options()("profile", value(c.profile), "robust: past the paper, verified; paper: to the letter")(
+      "init", value(o.initial_poses), "file of initial poses, as poses.json or truth.json has them")(
+      "reference", value(p.reference), "file of the reference scan; empty: the correspondence graph chooses")(
+      "graph-threshold", value(p.graph_threshold),
+      "correspondence measure below which two scans are connected; 0: from the data")(
+      "solver", value(c.solver), "simplex solver: glpk or cgal (exact, slow, for comparison)")(
+      "seed", value(o.seed), "seed of all random numbers")(
+      "threads", value(o.threads), "threads; 0: all of the machine; the result is the same for any number");
   po::options_description outliers("Outlier removal; lengths in the unit of the scans, 0: from the data");
-  outliers.add_options()
-      ("outliers", value(c.outliers), "kmeans, distance, lof or none")
-      ("outliers.clusters", value(p.outliers.kmeans_clusters), "kmeans: number of clusters k")
-      ("outliers.radius", value(p.outliers.kmeans_radius_m), "kmeans: radius r of the seeding spheres")
-      ("outliers.threshold", value(p.outliers.kmeans_threshold_m), "kmeans: points farther from every centroid are outliers")
-      ("outliers.neighbors", value(p.outliers.num_neighbors), "distance, lof: number of neighbours")
-      ("outliers.distance-factor", value(p.outliers.distance_factor), "distance: outliers are this many average spacings away")
-      ("outliers.lof-threshold", value(p.outliers.lof_threshold), "lof: outliers are this much sparser than their neighbours");
+  outliers.add_options()("outliers", value(c.outliers), "kmeans, distance, lof or none")(
+      "outliers.clusters", value(p.outliers.kmeans_clusters), "kmeans: number of clusters k")(
+      "outliers.radius", value(p.outliers.kmeans_radius_m), "kmeans: radius r of the seeding spheres")(
+      "outliers.threshold", value(p.outliers.kmeans_threshold_m),
+      "kmeans: points farther from every centroid are outliers")("outliers.neighbors", value(p.outliers.num_neighbors),
+                                                                 "distance, lof: number of neighbours")(
+      "outliers.distance-factor", value(p.outliers.distance_factor),
+      "distance: outliers are this many average spacings away")(
+      "outliers.lof-threshold", value(p.outliers.lof_threshold),
+      "lof: outliers are this much sparser than their neighbours");
   po::options_description sampling("Sampling");
-  sampling.add_options()
-      ("sampling.working-points", value(p.sampling.max_working_points), "most points of a scan kept in memory")
-      ("sampling.coarse-voxels", value(p.sampling.coarse_voxels), "voxels of a scan at the resolution scans are placed with")
-      ("sampling.fine-voxels", value(p.sampling.fine_voxels), "voxels of a scan at the resolution they are adjusted with")
-      ("sampling.max-surface-variation", value(p.sampling.max_surface_variation), "0..0.333; rougher places do not count as surfaces");
+  sampling.add_options()("sampling.working-points", value(p.sampling.max_working_points),
+                         "most points of a scan kept in memory")(
+      "sampling.coarse-voxels", value(p.sampling.coarse_voxels),
+      "voxels of a scan at the resolution scans are placed with")(
+      "sampling.fine-voxels", value(p.sampling.fine_voxels),
+      "voxels of a scan at the resolution they are adjusted with")("sampling.max-surface-variation",
+                                                                   value(p.sampling.max_surface_variation),
+                                                                   "0..0.333; rougher places do not count as surfaces");
   po::options_description placement("Simplex, refinement, adjustment");
-  placement.add_options()
-      ("lp.max-pivots", value(p.lp.lp.max_pivots), "most simplex pivots of one program")
-      ("lp.max-seconds", value(p.lp.lp.max_seconds), "[s] longest time of one program")
-      ("lp.coarse-points", value(p.placement.coarse_points), "points of a scan in the coarse programs")
-      ("lp.fine-points", value(p.placement.fine_points), "points of a scan in the fine programs")
-      ("lp.held-out-points", value(p.placement.held_out_points), "points kept from every fit, for verification")
-      ("refinement", value(c.refinement), "none, descent, annealing or both")
-      ("refinement.points", value(p.refinement.points), "points the cost is taken over, and as many held out")
-      ("descent.steps", value(p.refinement.descent_steps), "most steps of the descent")
-      ("annealing.steps", value(p.refinement.annealing_steps), "steps of the annealing after the simplex")
-      ("annealing.search-steps", value(p.placement.search_steps), "steps of the search where the initial guess fails")
-      ("annealing.initial-temperature", value(p.refinement.initial_temperature), "in units of the cost at the start")
-      ("annealing.final-temperature", value(p.refinement.final_temperature), "the same, at the end; cooling is geometric")
-      ("adjustment.steps", value(p.placement.adjustment_steps), "joint steps of all poses at the fine resolution; 0: none");
+  placement.add_options()("lp.max-pivots", value(p.lp.lp.max_pivots), "most simplex pivots of one program")(
+      "lp.max-seconds", value(p.lp.lp.max_seconds), "[s] longest time of one program")(
+      "lp.coarse-points", value(p.placement.coarse_points), "points of a scan in the coarse programs")(
+      "lp.fine-points", value(p.placement.fine_points), "points of a scan in the fine programs")(
+      "lp.held-out-points", value(p.placement.held_out_points), "points kept from every fit, for verification")(
+      "refinement", value(c.refinement), "none, descent, annealing or both")(
+      "refinement.points", value(p.refinement.points), "points the cost is taken over, and as many held out")(
+      "descent.steps", value(p.refinement.descent_steps), "most steps of the descent")(
+      "annealing.steps", value(p.refinement.annealing_steps), "steps of the annealing after the simplex")(
+      "annealing.search-steps", value(p.placement.search_steps), "steps of the search where the initial guess fails")(
+      "annealing.initial-temperature", value(p.refinement.initial_temperature), "in units of the cost at the start")(
+      "annealing.final-temperature", value(p.refinement.final_temperature),
+      "the same, at the end; cooling is geometric")("adjustment.steps", value(p.placement.adjustment_steps),
+                                                    "joint steps of all poses at the fine resolution; 0: none");
   main.add(outliers).add(sampling).add(placement);
   return main;
 }
 
 po::options_description command_line_only(RegisterOptions& o, std::string& config) {
   po::options_description general("Output and control");
-  general.add_options()
-      ("out,o", po::value(&o.out), "folder for the result; must not exist, or --force")
-      ("force", po::bool_switch(&o.force), "replace an earlier result")
-      ("config", po::value(&config), "read options from FILE (name = value); the command line wins")
-      ("print-config", po::bool_switch(&o.print_config), "write the effective options to stdout and stop")
-      ("quiet,q", po::bool_switch(&o.quiet), "no progress, no table; errors and warnings only")
-      ("verbose,v", po::bool_switch(&o.verbose), "say what happens to each scan")
-      ("help,h", po::bool_switch(&o.help), "this text");
+  general.add_options()("out,o", po::value(&o.out), "folder for the result; must not exist, or --force")(
+      "force", po::bool_switch(&o.force), "replace an earlier result")(
+      "config", po::value(&config), "read options from FILE (name = value); the command line wins")(
+      "print-config", po::bool_switch(&o.print_config), "write the effective options to stdout and stop")(
+      "quiet,q", po::bool_switch(&o.quiet), "no progress, no table; errors and warnings only")(
+      "verbose,v", po::bool_switch(&o.verbose), "say what happens to each scan")("help,h", po::bool_switch(&o.help),
+                                                                                 "this text");
   return general;
 }
 
@@ -155,7 +159,8 @@ RegisterOptions parse_register_options(const Arguments& arguments) {
   if (map.count("config") != 0) {
     const auto path = map["config"].as<std::string>();
     std::ifstream in(path);
-    if (!in || std::filesystem::is_directory(path)) throw InputError(path, "", "the option file cannot be opened", "check the path given to --config");
+    if (!in || std::filesystem::is_directory(path))
+      throw InputError(path, "", "the option file cannot be opened", "check the path given to --config");
     po::store(po::parse_config_file(in, file_options), map);
   }
   po::notify(map);

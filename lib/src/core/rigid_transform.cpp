@@ -6,9 +6,7 @@
 
 namespace tcm_icp {
 
-Eigen::Isometry3d isometry_from_twist(const Twist& twist) {
-  return isometry_about(Eigen::Vector3d::Zero(), twist);
-}
+Eigen::Isometry3d isometry_from_twist(const Twist& twist) { return isometry_about(Eigen::Vector3d::Zero(), twist); }
 
 Eigen::Isometry3d isometry_about(const Eigen::Vector3d& centre, const Twist& twist) {
   const Eigen::Vector3d rotation_vector = twist.head<3>();

@@ -19,8 +19,8 @@ double median(std::vector<double>& values) {
   return *middle;
 }
 
-// Half the time a typical sample takes is look-ups, and nodes of std::unordered_map cost a cache miss each: keys lie in one
-// array (open addressing, linear probing), values are positions in the list of voxels.
+// Half the time a typical sample takes is look-ups, and nodes of std::unordered_map cost a cache miss each: keys lie in
+// one array (open addressing, linear probing), values are positions in the list of voxels.
 class VoxelTable {
  public:
   static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();

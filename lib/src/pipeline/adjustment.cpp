@@ -18,8 +18,8 @@ namespace {
 constexpr std::size_t kSharesOfSample = 3;  // each neighbour sees a third of a scan's points, not the same third
 constexpr double kGateInVoxels = 2;
 constexpr double kNormalAngle = std::numbers::pi / 6;
-constexpr double kHuberFactor = 1.345;     // 95 % efficient for normal errors (Huber, 1981)
-constexpr double kMadToSigma = 1.4826;     // median absolute value of a normal error to its standard deviation
+constexpr double kHuberFactor = 1.345;  // 95 % efficient for normal errors (Huber, 1981)
+constexpr double kMadToSigma = 1.4826;  // median absolute value of a normal error to its standard deviation
 
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 

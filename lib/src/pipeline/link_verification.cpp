@@ -22,8 +22,7 @@ AlignmentEvidence verify_against_neighbors(const std::vector<PreparedScan>& scan
                           verification_at(voxel_m));
 }
 
-std::vector<LinkRecord> verify_links(const std::vector<PreparedScan>& scans,
-                                     const ScanPairs& pairs,
+std::vector<LinkRecord> verify_links(const std::vector<PreparedScan>& scans, const ScanPairs& pairs,
                                      const std::vector<Eigen::Isometry3d>& T_reference_scan, int num_threads) {
   std::vector<LinkRecord> links(pairs.size());
   parallel_for(num_threads, pairs.size(), [&](std::size_t begin, std::size_t end) {

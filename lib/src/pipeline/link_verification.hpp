@@ -15,8 +15,7 @@ AlignmentEvidence verify_against_neighbors(const std::vector<PreparedScan>& scan
                                            std::size_t scan, const std::vector<Eigen::Isometry3d>& T_reference_scan);
 
 /// One record a pair, in the pairs' order.
-std::vector<LinkRecord> verify_links(const std::vector<PreparedScan>& scans,
-                                     const ScanPairs& pairs,
+std::vector<LinkRecord> verify_links(const std::vector<PreparedScan>& scans, const ScanPairs& pairs,
                                      const std::vector<Eigen::Isometry3d>& T_reference_scan, int num_threads);
 
 }  // namespace tcm_icp

@@ -14,8 +14,8 @@ class MergedCloud {
   /// Adds a scan's cloud under its pose.
   void add(const Cloud& cloud, const Eigen::Isometry3d& T_reference_scan);
 
-  /// Where several scans have points a voxel keeps one mean point, so S grows with the area covered and not with the number
-  /// of scans. Built anew after each change: O(N log N).
+  /// Where several scans have points a voxel keeps one mean point, so S grows with the area covered and not with the
+  /// number of scans. Built anew after each change: O(N log N).
   ScanPyramid pyramid();
 
   /// The finest level of that pyramid alone.

@@ -26,7 +26,8 @@ Eigen::Isometry3d place_scan_as_printed(const PreparedScan& scan, const ScanPyra
                                   : "the simplex step failed: " + std::string(to_string(record.simplex.termination));
   if (!record.accepted) return T;
 
-  const TcmCloud fixed(target.cloud.points), moving(scan.pyramid.level(0).cloud.points), kept(scan.held_out_sample.points);
+  const TcmCloud fixed(target.cloud.points), moving(scan.pyramid.level(0).cloud.points),
+      kept(scan.held_out_sample.points);
   const TcmEvaluator tau(fixed, moving), held_out_tau(fixed, kept);
   TwistFrame frame;
   frame.centre = T * moving.centroid();

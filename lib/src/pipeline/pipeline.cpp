@@ -11,11 +11,11 @@
 #include "prepared_scan.hpp"
 #include "scan_sampling.hpp"
 #include "stage_clock.hpp"
-#include "verdict.hpp"
 #include "tcm_icp/core/error.hpp"
 #include "tcm_icp/core/parallel.hpp"
 #include "tcm_icp/graph/correspondence_measure.hpp"
 #include "tcm_icp/tcm/merge_order.hpp"
+#include "verdict.hpp"
 
 namespace tcm_icp {
 namespace {
@@ -55,7 +55,8 @@ std::size_t find_scan(const std::vector<SampledScan>& scans, const std::string& 
 
 class Run {
  public:
-  Run(const PipelineOptions& options, const RunContext& context) : options_(options), context_(context), clock_(result_.stages) {}
+  Run(const PipelineOptions& options, const RunContext& context)
+      : options_(options), context_(context), clock_(result_.stages) {}
 
   PipelineResult operator()(const std::vector<std::filesystem::path>& paths, const InitialPoses& initial_poses) {
     clock_.begin("read and sample");
@@ -135,8 +136,7 @@ class Run {
       threshold = 1 - kMinLinkOverlap;
     }
     result_.graph = build_correspondence_graph(measure, threshold);
-    result_.reference =
-        options_.reference.empty() ? result_.graph.reference : find_scan(sampled_, options_.reference);
+    result_.reference = options_.reference.empty() ? result_.graph.reference : find_scan(sampled_, options_.reference);
     result_.graph.reference = result_.reference;
   }
 
@@ -177,7 +177,8 @@ class Run {
       MergeRecord record;
       record.scan = q;
       record.attempt = ++attempts[q];
-      record.tcm = std::find_if(candidates.begin(), candidates.end(), [&](const auto& c) { return c.scan == q; })->terms;
+      record.tcm =
+          std::find_if(candidates.begin(), candidates.end(), [&](const auto& c) { return c.scan == q; })->terms;
       Rng rng = make_stream(context_.seed, "placement", sampled_[q].scan.file + "#" + std::to_string(record.attempt));
       const Eigen::Isometry3d T_init = T_init_[reference].inverse() * T_init_[q];
       const auto place = paper() ? place_scan_as_printed : place_scan;
@@ -214,8 +215,9 @@ class Run {
     });
   }
 
-  // Poses move together, then each is judged again against all its neighbours: what a merge let pass does not pass here. One
-  // scan at a time is taken out, the one that agrees least, because a wrong neighbour spoils the evidence of right ones.
+  // Poses move together, then each is judged again against all its neighbours: what a merge let pass does not pass
+  // here. One scan at a time is taken out, the one that agrees least, because a wrong neighbour spoils the evidence of
+  // right ones.
   void adjust_and_verify() {
     result_.evidence.assign(scans_.size(), std::nullopt);
     reasons_.assign(scans_.size(), "");
@@ -272,8 +274,7 @@ class Run {
         pose.status = ScanStatus::kRegistered;
         pose.verdict = paper() ? "doubtful" : "accepted";
         // Raw coordinates to the reference's raw coordinates: both local origins are put back.
-        pose.T_reference_scan =
-            from_reference * T_reference_scan_[i] * Eigen::Translation3d(-sampled_[i].scan.origin);
+        pose.T_reference_scan = from_reference * T_reference_scan_[i] * Eigen::Translation3d(-sampled_[i].scan.origin);
       } else {
         pose.status = ScanStatus::kUnregistered;
         pose.component = ++component;

@@ -1,14 +1,14 @@
 #include "placement.hpp"
 
-#include <algorithm>
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "verdict.hpp"
 #include "tcm_icp/core/rigid_transform.hpp"
 #include "tcm_icp/registration/alignment_objective.hpp"
 #include "tcm_icp/registration/lp_registration.hpp"
+#include "verdict.hpp"
 
 namespace tcm_icp {
 namespace {
@@ -102,9 +102,9 @@ class Placer {
         .T_target_source;
   }
 
-  /// Looks for other poses that fit: the cost is scanned over a grid in the plane of the two weakest translations, the scan
-  /// is fitted again from its best minima, and the pose with the largest consensus wins. Repeated structure (bays of a
-  /// hall, rows of trees) shows here and nowhere else: each of its fits looks right by itself.
+  /// Looks for other poses that fit: the cost is scanned over a grid in the plane of the two weakest translations, the
+  /// scan is fitted again from its best minima, and the pose with the largest consensus wins. Repeated structure (bays
+  /// of a hall, rows of trees) shows here and nowhere else: each of its fits looks right by itself.
   void explore(Candidate& best, LpFigures& figures) const {
     double runner_up = 0;
     for (int round = 0; round < kMaxExplorations; ++round) {
@@ -188,7 +188,7 @@ class Placer {
       return Eigen::Isometry3d(Eigen::Translation3d(kExploreStep * voxel_m_ * (i * u + j * v)) * T);
     };
     constexpr int kSide = 2 * kExploreReach + 1;
-    std::array<double, static_cast<std::size_t>(kSide* kSide)> cost{};
+    std::array<double, static_cast<std::size_t>(kSide * kSide)> cost{};
     const auto slot = [](int i, int j) {
       return static_cast<std::size_t>((i + kExploreReach) * kSide + (j + kExploreReach));
     };

@@ -13,8 +13,8 @@ namespace tcm_icp {
 /// Fills `record` but for scan, attempt and tcm; returns the pose found, right or not: record.accepted tells.
 ///
 /// The linear programs start from gates of 8, 16, 4 and 32 coarse voxels in turn, because nothing tells how far off the
-/// initial guess is; the first that passes verification ends the turn, otherwise the one with the largest consensus counts.
-/// If none passes, annealing searches from the initial guess, and the programs start again from what it finds.
+/// initial guess is; the first that passes verification ends the turn, otherwise the one with the largest consensus
+/// counts. If none passes, annealing searches from the initial guess, and the programs start again from what it finds.
 Eigen::Isometry3d place_scan(const PreparedScan& scan, const ScanPyramid& merged, const Eigen::Isometry3d& T_init,
                              const PipelineOptions& options, Rng& rng, MergeRecord& record);
 

@@ -66,7 +66,11 @@ PreparedScan prepare_scan(const SampledScan& scan, const Resolutions& resolution
   NeighborIndex fine_index(fine.points);
   PreparedScan out{ScanPyramid(surfaces, resolutions.coarse_m, kNumPyramidLevels),
                    {resolutions.fine_m, std::move(fine), std::move(fine_index)},
-                   {}, {}, {}, {}, {}};
+                   {},
+                   {},
+                   {},
+                   {},
+                   {}};
   const std::string& file = scan.scan.file;
   out.coarse_sample =
       draw(voxel_downsample(scan.scan.cloud, resolutions.coarse_m), options.coarse_points, seed, "coarse points", file);

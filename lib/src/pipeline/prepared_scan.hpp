@@ -18,13 +18,13 @@ struct Resolutions {
 };
 
 struct PreparedScan {
-  ScanPyramid pyramid;   ///< from the coarse voxel upwards; surface normals
-  PyramidLevel fine;     ///< fine voxel; surface normals
-  Cloud coarse_sample;   ///< for coarse programs: every kind of point
-  Cloud fit_sample;      ///< for fine programs: surfaces, at the coarse voxel
-  Cloud held_out_sample; ///< surfaces at the coarse voxel; in no fit
-  Cloud fine_sample;     ///< surfaces at the fine voxel, for the adjustment
-  Points tcm_points;     ///< thinned to the pyramid's second level
+  ScanPyramid pyramid;    ///< from the coarse voxel upwards; surface normals
+  PyramidLevel fine;      ///< fine voxel; surface normals
+  Cloud coarse_sample;    ///< for coarse programs: every kind of point
+  Cloud fit_sample;       ///< for fine programs: surfaces, at the coarse voxel
+  Cloud held_out_sample;  ///< surfaces at the coarse voxel; in no fit
+  Cloud fine_sample;      ///< surfaces at the fine voxel, for the adjustment
+  Points tcm_points;      ///< thinned to the pyramid's second level
 };
 
 /// The median over the scans of the voxel edge at which a scan has the wanted number of voxels.

@@ -49,13 +49,14 @@ Json to_json(const RegistrationResult& r) {
 }
 
 Json to_json(const MergeRecord& m, const PipelineResult& result) {
-  Json j{{"scan", result.scans[m.scan].file},
-         {"attempt", m.attempt},
-         {"accepted", m.accepted},
-         {"reason", m.reason},
-         {"tcm", {{"tau", number(m.tcm.tau())}, {"f", number(m.tcm.f)}, {"g", number(m.tcm.g)}, {"h", number(m.tcm.h)}}},
-         {"simplex", to_json(m.simplex)},
-         {"searched_by_annealing", m.searched}};
+  Json j{
+      {"scan", result.scans[m.scan].file},
+      {"attempt", m.attempt},
+      {"accepted", m.accepted},
+      {"reason", m.reason},
+      {"tcm", {{"tau", number(m.tcm.tau())}, {"f", number(m.tcm.f)}, {"g", number(m.tcm.g)}, {"h", number(m.tcm.h)}}},
+      {"simplex", to_json(m.simplex)},
+      {"searched_by_annealing", m.searched}};
   if (m.descent) j["descent"] = to_json(*m.descent);
   if (m.annealing) j["annealing"] = to_json(*m.annealing);
   if (m.evidence) j["evidence"] = to_json(*m.evidence);
@@ -69,10 +70,14 @@ Json to_json(const MergeRecord& m, const PipelineResult& result) {
 
 const char* name_of(OutlierMethod method) {
   switch (method) {
-    case OutlierMethod::kKMeans: return "kmeans";
-    case OutlierMethod::kDistance: return "distance";
-    case OutlierMethod::kLof: return "lof";
-    case OutlierMethod::kNone: return "none";
+    case OutlierMethod::kKMeans:
+      return "kmeans";
+    case OutlierMethod::kDistance:
+      return "distance";
+    case OutlierMethod::kLof:
+      return "lof";
+    case OutlierMethod::kNone:
+      return "none";
   }
   return "unknown";
 }
@@ -140,9 +145,12 @@ Json options_json(const PipelineOptions& o, const RunContext& context) {
 
 const char* name_of(ScanStatus status) {
   switch (status) {
-    case ScanStatus::kReference: return "reference";
-    case ScanStatus::kRegistered: return "registered";
-    case ScanStatus::kUnregistered: return "unregistered";
+    case ScanStatus::kReference:
+      return "reference";
+    case ScanStatus::kRegistered:
+      return "registered";
+    case ScanStatus::kUnregistered:
+      return "unregistered";
   }
   return "unknown";
 }

@@ -109,7 +109,8 @@ void write_registered_cloud(const fs::path& path, const std::vector<fs::path>& p
   }
   writer.finish();
   if (writer.num_replaced() > 0) {
-    context.warn(std::to_string(writer.num_replaced()) + " attribute values were NaN or infinite and are 0 in registered.ply");
+    context.warn(std::to_string(writer.num_replaced()) +
+                 " attribute values were NaN or infinite and are 0 in registered.ply");
   }
 }
 

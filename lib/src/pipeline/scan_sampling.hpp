@@ -11,13 +11,13 @@
 namespace tcm_icp {
 
 struct SampledScan {
-  Scan scan;          ///< working cloud with outliers removed, with a normal at every point that has one
+  Scan scan;               ///< working cloud with outliers removed, with a normal at every point that has one
   Points surface_normals;  ///< the same normals, zero where the place is too rough to be a surface
   OutlierRule outliers;
 };
 
-/// Streams the file through a voxel sampler (origin: its first point), learns the outlier rule and applies it to the working
-/// cloud, then estimates normals. Memory follows max_working_points.
+/// Streams the file through a voxel sampler (origin: its first point), learns the outlier rule and applies it to the
+/// working cloud, then estimates normals. Memory follows max_working_points.
 /// @throws InputError, InvalidInput
 SampledScan sample_scan(const std::filesystem::path& path, const PipelineOptions& options, std::uint64_t seed,
                         int num_threads);

@@ -12,8 +12,8 @@ std::string percent(double share) {
   return text;
 }
 
-// What is left of the agreement after a slide by four voxels, at most, where a pose is right. On real and simulated scenes
-// right poses leave 0.16 to 0.70 in their weakest direction, wrong ones 0.79 and more, most of them above 1.
+// What is left of the agreement after a slide by four voxels, at most, where a pose is right. On real and simulated
+// scenes right poses leave 0.16 to 0.70 in their weakest direction, wrong ones 0.79 and more, most of them above 1.
 constexpr double kMaxLeftAfterSlide = 0.75;
 // Neighbours at random lie within a quarter voxel of the plane, normals agreeing, in 5 to 15 % of cases.
 constexpr double kMinInlierShare = 0.2;

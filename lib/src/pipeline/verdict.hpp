@@ -7,8 +7,8 @@
 
 namespace tcm_icp {
 
-/// Verification of a pose at resolution `voxel_m`: overlap within two voxels, agreement within a quarter of one, slides of
-/// four. All follow from the resolution, which follows from the data.
+/// Verification of a pose at resolution `voxel_m`: overlap within two voxels, agreement within a quarter of one, slides
+/// of four. All follow from the resolution, which follows from the data.
 VerificationOptions verification_at(double voxel_m);
 
 struct Verdict {

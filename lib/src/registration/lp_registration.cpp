@@ -27,13 +27,20 @@ double median_plane_distance(const std::vector<Correspondence>& matches) {
 
 std::string_view to_string(Termination termination) {
   switch (termination) {
-    case Termination::kNotRun: return "not run";
-    case Termination::kConverged: return "converged";
-    case Termination::kMaxIterations: return "max iterations";
-    case Termination::kStopped: return "stopped";
-    case Termination::kTooFewCorrespondences: return "too few correspondences";
-    case Termination::kLpInfeasible: return "LP infeasible";
-    case Termination::kLpFailed: return "LP failed";
+    case Termination::kNotRun:
+      return "not run";
+    case Termination::kConverged:
+      return "converged";
+    case Termination::kMaxIterations:
+      return "max iterations";
+    case Termination::kStopped:
+      return "stopped";
+    case Termination::kTooFewCorrespondences:
+      return "too few correspondences";
+    case Termination::kLpInfeasible:
+      return "LP infeasible";
+    case Termination::kLpFailed:
+      return "LP failed";
   }
   return "unknown";
 }
@@ -43,8 +50,8 @@ void LpRegistrationOptions::validate() const {
     if (!ok) throw InvalidOptions(std::string(what) + ", not " + std::to_string(value));
   };
   require(initial_gate_m > 0, "initial_gate_m must be above 0 m", initial_gate_m);
-  require(final_gate_m > 0 && final_gate_m <= initial_gate_m, "final_gate_m must be above 0 m and at most initial_gate_m",
-          final_gate_m);
+  require(final_gate_m > 0 && final_gate_m <= initial_gate_m,
+          "final_gate_m must be above 0 m and at most initial_gate_m", final_gate_m);
   require(gate_shrink > 0 && gate_shrink < 1, "gate_shrink must be between 0 and 1", gate_shrink);
   require(initial_normal_angle_deg > 0 && initial_normal_angle_deg <= 90,
           "initial_normal_angle_deg must be above 0 and at most 90 degrees", initial_normal_angle_deg);
@@ -111,8 +118,7 @@ RegistrationResult register_lp(const Cloud& source, const ScanPyramid& target, c
     }
     result.median_residual_m = median_plane_distance(matches);
     double step_m = 0;
-    const Termination step =
-        lp_point_to_plane_step(matches, options.lp, result.T_target_source, result.lp, step_m);
+    const Termination step = lp_point_to_plane_step(matches, options.lp, result.T_target_source, result.lp, step_m);
     if (step != Termination::kConverged) {
       result.termination = step;
       return result;

@@ -33,8 +33,8 @@ Eigen::Isometry3d TwistFrame::moved(const Eigen::Isometry3d& T_target_source, co
 
 void DescentOptions::validate() const {
   require(initial_step_m > 0, "descent initial_step_m must be above 0 m", initial_step_m);
-  require(min_step_m > 0 && min_step_m <= initial_step_m, "descent min_step_m must be above 0 m and at most initial_step_m",
-          min_step_m);
+  require(min_step_m > 0 && min_step_m <= initial_step_m,
+          "descent min_step_m must be above 0 m and at most initial_step_m", min_step_m);
   require(step_shrink > 0 && step_shrink < 1, "descent step_shrink must be between 0 and 1", step_shrink);
   require(max_steps >= 1, "descent max_steps must be at least 1", max_steps);
 }

@@ -43,7 +43,8 @@ Tally take_tally(const Cloud& points, const PyramidLevel& target, const Eigen::I
       tally.information += row * row.transpose();
     }
     // A target without a normal is no surface: nothing there can agree.
-    if (!n_target.isZero() && std::abs(residual) <= options.tolerance_m && std::abs(n_source.dot(n_target)) >= min_cosine) {
+    if (!n_target.isZero() && std::abs(residual) <= options.tolerance_m &&
+        std::abs(n_source.dot(n_target)) >= min_cosine) {
       ++tally.agreeing;
     }
   }

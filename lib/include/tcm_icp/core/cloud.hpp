@@ -9,8 +9,8 @@ namespace tcm_icp {
 
 using Points = std::vector<Eigen::Vector3d>;
 
-/// Points in one frame [m]. `normals` is empty or as long as `points`; a zero normal marks a point whose surface direction
-/// could not be determined.
+/// Points in one frame [m]. `normals` is empty or as long as `points`; a zero normal marks a point whose surface
+/// direction could not be determined.
 struct Cloud {
   Points points;
   Points normals;

@@ -25,7 +25,8 @@ class InvalidInput : public Error {
   using Error::Error;
 };
 
-/// A file that cannot be read. `place` is a line or byte position ("line 12", "byte 4096", "header"), `remedy` what to do.
+/// A file that cannot be read. `place` is a line or byte position ("line 12", "byte 4096", "header"), `remedy` what to
+/// do.
 class InputError : public Error {
  public:
   InputError(const std::filesystem::path& path, const std::string& place, const std::string& problem,

@@ -13,14 +13,14 @@ struct NormalOptions {
 };
 
 struct NormalEstimate {
-  Points normals;                   ///< unit vectors of arbitrary sign; zero where no surface could be told
-  std::vector<double> variation;    ///< surface variation: least eigenvalue by their sum, 0 (plane) to 1/3 (no direction)
+  Points normals;                 ///< unit vectors of arbitrary sign; zero where no surface could be told
+  std::vector<double> variation;  ///< surface variation: least eigenvalue by their sum, 0 (plane) to 1/3 (no direction)
   std::vector<double> roughness_m;  ///< [m] standard deviation of the neighbours from their plane
 };
 
-/// Normals by principal components of each point's nearest neighbours. A neighbourhood on a line has no normal, so it is
-/// doubled until its second axis is at least a fifth as long as its first, or max_neighbors is reached.
-/// Cost O(N k log N) on `num_threads` threads; the result does not depend on their number.
+/// Normals by principal components of each point's nearest neighbours. A neighbourhood on a line has no normal, so it
+/// is doubled until its second axis is at least a fifth as long as its first, or max_neighbors is reached. Cost O(N k
+/// log N) on `num_threads` threads; the result does not depend on their number.
 NormalEstimate estimate_normals(const Points& points, const NeighborIndex& index, const NormalOptions& options,
                                 int num_threads);
 

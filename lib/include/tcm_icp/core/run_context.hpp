@@ -18,10 +18,10 @@ enum class Continue { kYes, kStop };
 enum class LogLevel { kDebug, kInfo, kWarning };
 
 struct RunContext {
-  std::uint64_t seed = 42;  ///< each stage draws from make_stream(seed, stage)
-  int num_threads = 1;      ///< >= 1; changes speed, never the result
-  std::function<Continue(const Progress&)> on_progress;    ///< may be empty; called from one thread
-  std::function<void(LogLevel, std::string_view)> log;     ///< may be empty
+  std::uint64_t seed = 42;                               ///< each stage draws from make_stream(seed, stage)
+  int num_threads = 1;                                   ///< >= 1; changes speed, never the result
+  std::function<Continue(const Progress&)> on_progress;  ///< may be empty; called from one thread
+  std::function<void(LogLevel, std::string_view)> log;   ///< may be empty
 
   /// Reports progress. @throws Cancelled  if on_progress answers kStop
   void report(std::string_view stage, std::size_t done, std::size_t total) const;

@@ -12,15 +12,15 @@ namespace tcm_icp {
 
 struct Scan {
   std::filesystem::path path;
-  std::string file;                                       ///< name of the file, as poses.json has it
-  Eigen::Vector3d origin = Eigen::Vector3d::Zero();       ///< [m] subtracted from raw coordinates on reading
-  Cloud cloud;                                            ///< working cloud, local frame (raw minus origin)
-  double voxel_size_m = 0;                                ///< [m] voxel edge of the working cloud
-  double spacing_m = 0;                                   ///< [m] median nearest-neighbour distance of the working cloud
-  double noise_m = 0;                                     ///< [m] median deviation from the local plane
-  double extent_m = 0;                                    ///< [m] 90th percentile of the distance from the median point
-  std::uint64_t num_raw_points = 0;                       ///< finite points of the file
-  std::uint64_t num_dropped_points = 0;                   ///< NaN or infinite points of the file
+  std::string file;                                  ///< name of the file, as poses.json has it
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< [m] subtracted from raw coordinates on reading
+  Cloud cloud;                                       ///< working cloud, local frame (raw minus origin)
+  double voxel_size_m = 0;                           ///< [m] voxel edge of the working cloud
+  double spacing_m = 0;                              ///< [m] median nearest-neighbour distance of the working cloud
+  double noise_m = 0;                                ///< [m] median deviation from the local plane
+  double extent_m = 0;                               ///< [m] 90th percentile of the distance from the median point
+  std::uint64_t num_raw_points = 0;                  ///< finite points of the file
+  std::uint64_t num_dropped_points = 0;              ///< NaN or infinite points of the file
 };
 
 }  // namespace tcm_icp

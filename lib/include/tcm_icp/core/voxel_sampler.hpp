@@ -27,8 +27,8 @@ struct VoxelKeyHash {
 };
 
 /// Streaming voxel sampling. The voxel starts well below the points' spacing (a fixed share of the first points' median
-/// distance from their median, so that it scales and turns with the data) and doubles whenever more than `max_voxels` are
-/// occupied. Memory is O(max_voxels), whatever the number of points. Order of the voxels: by their first point.
+/// distance from their median, so that it scales and turns with the data) and doubles whenever more than `max_voxels`
+/// are occupied. Memory is O(max_voxels), whatever the number of points. Order of the voxels: by their first point.
 class VoxelSampler {
  public:
   /// @param max_voxels  >= 8; the sample has at most this many points
@@ -55,7 +55,8 @@ class VoxelSampler {
 std::size_t count_voxels(const Points& points, double voxel_size_m,
                          std::size_t stop_at = std::numeric_limits<std::size_t>::max());
 
-/// One mean point per voxel of the given size; normals, where there are any, are averaged as axes of the point nearest the mean.
+/// One mean point per voxel of the given size; normals, where there are any, are averaged as axes of the point nearest
+/// the mean.
 Cloud voxel_downsample(const Cloud& cloud, double voxel_size_m);
 
 }  // namespace tcm_icp

@@ -20,36 +20,36 @@ enum class Refinement { kNone, kDescent, kAnnealing, kDescentThenAnnealing };
 /// How many points stand for a scan. Lengths follow from these numbers and the data.
 struct SamplingOptions {
   std::size_t max_working_points = 262'144;  ///< >= 1000; of a scan, while it streams by
-  std::size_t coarse_voxels = 20'000;        ///< >= 100; voxels of a typical scan at the resolution scans are placed with
-  std::size_t fine_voxels = 100'000;         ///< >= coarse_voxels; and at the one they are adjusted with
-  double max_surface_variation = 0.06;       ///< 0..1/3; rougher places (leaves, wires) do not count as surfaces
-  void validate() const;                     ///< throws InvalidOptions
+  std::size_t coarse_voxels = 20'000;   ///< >= 100; voxels of a typical scan at the resolution scans are placed with
+  std::size_t fine_voxels = 100'000;    ///< >= coarse_voxels; and at the one they are adjusted with
+  double max_surface_variation = 0.06;  ///< 0..1/3; rougher places (leaves, wires) do not count as surfaces
+  void validate() const;                ///< throws InvalidOptions
 };
 
 /// Placing one scan against what is merged.
 struct PlacementOptions {
-  int coarse_points = 1500;        ///< >= 100; points of a scan in its coarse linear programs
-  int fine_points = 3000;          ///< >= 100; and in the finer ones
-  int held_out_points = 1500;      ///< >= 100; points kept from every fit, for verification
-  int search_steps = 400;          ///< >= 0; annealing steps where the fit from the initial guess fails verification
-  int adjustment_steps = 10;       ///< >= 0; Gauss-Newton steps over all poses at once, at the fine resolution
-  void validate() const;           ///< throws InvalidOptions
+  int coarse_points = 1500;    ///< >= 100; points of a scan in its coarse linear programs
+  int fine_points = 3000;      ///< >= 100; and in the finer ones
+  int held_out_points = 1500;  ///< >= 100; points kept from every fit, for verification
+  int search_steps = 400;      ///< >= 0; annealing steps where the fit from the initial guess fails verification
+  int adjustment_steps = 10;   ///< >= 0; Gauss-Newton steps over all poses at once, at the fine resolution
+  void validate() const;       ///< throws InvalidOptions
 };
 
 /// Refinement after the simplex. Lengths are in units of the noise found by the fit.
 struct RefinementOptions {
   Refinement method = Refinement::kDescentThenAnnealing;
-  int points = 160;                ///< >= 20; points the cost is taken over, and as many held out
-  int descent_steps = 8;           ///< >= 1
-  int annealing_steps = 100;       ///< >= 0
-  double initial_temperature = 0.02;   ///< > 0; in units of the cost at the start
-  double final_temperature = 0.0005;   ///< > 0
-  void validate() const;           ///< throws InvalidOptions
+  int points = 160;                   ///< >= 20; points the cost is taken over, and as many held out
+  int descent_steps = 8;              ///< >= 1
+  int annealing_steps = 100;          ///< >= 0
+  double initial_temperature = 0.02;  ///< > 0; in units of the cost at the start
+  double final_temperature = 0.0005;  ///< > 0
+  void validate() const;              ///< throws InvalidOptions
 };
 
 struct PipelineOptions {
   Profile profile = Profile::kRobust;
-  std::string reference;  ///< file of the reference scan; empty: chosen by the correspondence graph
+  std::string reference;       ///< file of the reference scan; empty: chosen by the correspondence graph
   double graph_threshold = 0;  ///< > 0; measure below which scans are connected; 0: from the data
   SamplingOptions sampling;
   OutlierOptions outliers;

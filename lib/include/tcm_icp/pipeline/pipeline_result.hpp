@@ -20,34 +20,34 @@ namespace tcm_icp {
 /// What is known of a scan before it is placed.
 struct ScanSummary {
   std::string file;
-  std::uint64_t num_points = 0;          ///< finite points of the file
-  std::uint64_t num_dropped_points = 0;  ///< NaN or infinite
-  std::size_t num_working_points = 0;    ///< after outlier removal
-  double voxel_size_m = 0;               ///< [m] of the working cloud
-  double spacing_m = 0;                  ///< [m] median nearest-neighbour distance of the working cloud
-  double noise_m = 0;                    ///< [m] median deviation from the local plane
-  double extent_m = 0;                   ///< [m] 90th percentile of the distance from the median point
-  OutlierRule outliers;                  ///< for points in the scan's local frame
+  std::uint64_t num_points = 0;                      ///< finite points of the file
+  std::uint64_t num_dropped_points = 0;              ///< NaN or infinite
+  std::size_t num_working_points = 0;                ///< after outlier removal
+  double voxel_size_m = 0;                           ///< [m] of the working cloud
+  double spacing_m = 0;                              ///< [m] median nearest-neighbour distance of the working cloud
+  double noise_m = 0;                                ///< [m] median deviation from the local plane
+  double extent_m = 0;                               ///< [m] 90th percentile of the distance from the median point
+  OutlierRule outliers;                              ///< for points in the scan's local frame
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< [m] local frame = raw coordinates minus this
 };
 
 /// One attempt to merge a scan into S.
 struct MergeRecord {
   std::size_t scan = 0;
-  int attempt = 1;     ///< a scan that fails is tried again when S has grown
-  TcmTerms tcm;        ///< against S, before the simplex
+  int attempt = 1;  ///< a scan that fails is tried again when S has grown
+  TcmTerms tcm;     ///< against S, before the simplex
   RegistrationResult simplex;
   std::optional<RefinementTrace> descent;
   std::optional<RefinementTrace> annealing;
   std::optional<AlignmentEvidence> evidence;  ///< robust profile only
-  bool searched = false;  ///< annealing from the initial guess was needed
+  bool searched = false;                      ///< annealing from the initial guess was needed
   bool accepted = false;
   std::string reason;
 };
 
 /// Two scans whose points overlap at the final poses.
 struct LinkRecord {
-  std::size_t a = 0, b = 0;  ///< a < b
+  std::size_t a = 0, b = 0;    ///< a < b
   AlignmentEvidence evidence;  ///< of the direction that overlaps more
   std::string verdict, reason;
 };
@@ -62,8 +62,8 @@ struct PipelineResult {
   std::size_t reference = 0;
   std::vector<ScanSummary> scans;
   std::vector<ScanPose> poses;  ///< for raw coordinates, in the order of the scans
-  /// Of each scan's final pose against all its neighbours; for a scan that is not registered, of its last attempt. Nothing
-  /// for the reference, and in the paper profile.
+  /// Of each scan's final pose against all its neighbours; for a scan that is not registered, of its last attempt.
+  /// Nothing for the reference, and in the paper profile.
   std::vector<std::optional<AlignmentEvidence>> evidence;
   CorrespondenceGraph graph;
   std::vector<MergeRecord> merges;

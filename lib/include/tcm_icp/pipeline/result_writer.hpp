@@ -22,12 +22,12 @@ struct RunDescription {
 std::string report_json(const PipelineResult& result, const PipelineOptions& options, const RunContext& context,
                         const RunDescription& description);
 
-/// @throws OutputError  where `folder` exists and `overwrite` is not set, or its parent cannot be written to. To be called
-/// before the work starts.
+/// @throws OutputError  where `folder` exists and `overwrite` is not set, or its parent cannot be written to. To be
+/// called before the work starts.
 void check_output_folder(const std::filesystem::path& folder, bool overwrite);
 
-/// Writes all files into a temporary folder beside `folder` and renames it: a failed run leaves nothing. The raw points stream
-/// by a second time: outliers are left out, attributes kept. The time it takes is added to result.stages.
+/// Writes all files into a temporary folder beside `folder` and renames it: a failed run leaves nothing. The raw points
+/// stream by a second time: outliers are left out, attributes kept. The time it takes is added to result.stages.
 /// @throws InputError, OutputError, Cancelled
 void write_result(const std::filesystem::path& folder, bool overwrite, const std::vector<std::filesystem::path>& paths,
                   PipelineResult& result, const PipelineOptions& options, const RunContext& context,

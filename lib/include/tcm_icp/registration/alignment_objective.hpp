@@ -9,9 +9,9 @@
 
 namespace tcm_icp {
 
-/// Mean of rho(r) = r^2 / (r^2 + scale^2) (Geman and McClure, 1985) over the source points, r the distance to the plane at
-/// the nearest target point [m]; a point without a neighbour within the gate, or whose neighbour faces another way, costs 1.
-/// Keeps references: source and target must outlive it. Thread-safe.
+/// Mean of rho(r) = r^2 / (r^2 + scale^2) (Geman and McClure, 1985) over the source points, r the distance to the plane
+/// at the nearest target point [m]; a point without a neighbour within the gate, or whose neighbour faces another way,
+/// costs 1. Keeps references: source and target must outlive it. Thread-safe.
 class AlignmentObjective {
  public:
   /// @param scale_m  [m] > 0; a residual of this size costs one half
@@ -21,8 +21,8 @@ class AlignmentObjective {
   /// 0 (every point on its plane) to 1 (no point near anything). One nearest-neighbour query a point.
   double cost(const Eigen::Isometry3d& T_target_source) const;
 
-  /// The cost, and its derivative by a twist (rotation vector about `centre` [1/rad], translation [1/m]) applied after the
-  /// pose, with the neighbours held fixed.
+  /// The cost, and its derivative by a twist (rotation vector about `centre` [1/rad], translation [1/m]) applied after
+  /// the pose, with the neighbours held fixed.
   double cost_and_gradient(const Eigen::Isometry3d& T_target_source, const Eigen::Vector3d& centre,
                            Twist& gradient) const;
 

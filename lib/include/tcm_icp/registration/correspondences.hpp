@@ -16,12 +16,12 @@ struct Correspondence {
 };
 
 struct CorrespondenceGate {
-  double max_distance_m = 0;    ///< [m] > 0; farther pairs are dropped
+  double max_distance_m = 0;          ///< [m] > 0; farther pairs are dropped
   double max_normal_angle_rad = 1.0;  ///< [rad] pairs whose normals differ more are dropped
 };
 
-/// Nearest neighbours of the moved source points that pass the gate; in the order of the source. The plane's normal is the
-/// target's; the source's where the target has none. O(N log M).
+/// Nearest neighbours of the moved source points that pass the gate; in the order of the source. The plane's normal is
+/// the target's; the source's where the target has none. O(N log M).
 std::vector<Correspondence> find_correspondences(const Cloud& source, const Eigen::Isometry3d& T_target_source,
                                                  const PyramidLevel& target, const CorrespondenceGate& gate);
 

@@ -10,20 +10,20 @@
 namespace tcm_icp {
 
 struct LpRegistrationOptions {
-  double initial_gate_m = 0;          ///< [m] > 0; correspondences may be this far apart at first
-  double final_gate_m = 0;            ///< [m] > 0, <= initial_gate_m; and this far at last
-  double gate_shrink = 0.75;          ///< 0 < shrink < 1; factor on the gate from one iteration to the next
+  double initial_gate_m = 0;             ///< [m] > 0; correspondences may be this far apart at first
+  double final_gate_m = 0;               ///< [m] > 0, <= initial_gate_m; and this far at last
+  double gate_shrink = 0.75;             ///< 0 < shrink < 1; factor on the gate from one iteration to the next
   double initial_normal_angle_deg = 60;  ///< [deg] normals may differ by this much at first
   double final_normal_angle_deg = 30;    ///< [deg] and by this much at last
-  int max_iterations = 60;            ///< >= 1
-  double convergence_share = 0.002;   ///< stop when a step moves the points less than this share of the final gate (rms)
-  int min_correspondences = 12;       ///< >= 6
+  int max_iterations = 60;               ///< >= 1
+  double convergence_share = 0.002;  ///< stop when a step moves the points less than this share of the final gate (rms)
+  int min_correspondences = 12;      ///< >= 6
   L1FitOptions lp;
   void validate() const;  ///< throws InvalidOptions naming field, value and bound
 };
 
-/// One L1 point-to-plane step: the twist about `centre` that minimises sum |n . (p + w x (p - centre) + t - q)|, 6 unknowns,
-/// solved exactly through its dual linear program. Rotations are scaled by the matches' RMS radius.
+/// One L1 point-to-plane step: the twist about `centre` that minimises sum |n . (p + w x (p - centre) + t - q)|, 6
+/// unknowns, solved exactly through its dual linear program. Rotations are scaled by the matches' RMS radius.
 /// @param iterations  what the step did is added to its LP figures
 Termination lp_point_to_plane_step(const std::vector<Correspondence>& matches, const L1FitOptions& options,
                                    Eigen::Isometry3d& T_target_source, LpFigures& figures, double& step_m);

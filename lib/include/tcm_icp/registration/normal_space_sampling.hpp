@@ -9,9 +9,10 @@
 
 namespace tcm_icp {
 
-/// Indices of about `count` points that have a normal, in ascending order; all of them where there are no more. Normals are
-/// sorted into 48 directions (sign ignored); a direction's share grows with the square root of its number of points, so that
-/// flat ground keeps a say but not the last word (after Rusinkiewicz and Levoy, 2001, who give all directions the same).
+/// Indices of about `count` points that have a normal, in ascending order; all of them where there are no more. Normals
+/// are sorted into 48 directions (sign ignored); a direction's share grows with the square root of its number of
+/// points, so that flat ground keeps a say but not the last word (after Rusinkiewicz and Levoy, 2001, who give all
+/// directions the same).
 std::vector<std::size_t> normal_space_sample(const Cloud& cloud, std::size_t count, Rng& rng);
 
 }  // namespace tcm_icp

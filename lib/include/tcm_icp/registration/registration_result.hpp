@@ -23,17 +23,17 @@ std::string_view to_string(Termination termination);
 /// The certificate of the last linear program a step solved, and the effort of all of them.
 struct LpFigures {
   int num_programs = 0;
-  long long num_pivots = 0;        ///< over all programs
+  long long num_pivots = 0;                                                ///< over all programs
   double objective = std::numeric_limits<double>::quiet_NaN();             ///< [m] of the last program
   double relative_duality_gap = std::numeric_limits<double>::quiet_NaN();  ///< largest over all programs
-  double seconds = 0;              ///< in the solver, over all programs
+  double seconds = 0;                                                      ///< in the solver, over all programs
 };
 
 struct RegistrationResult {
   Eigen::Isometry3d T_target_source = Eigen::Isometry3d::Identity();
-  Termination termination = Termination::kNotRun;  ///< a forgotten call cannot pass for a result
-  int num_iterations = 0;                          ///< completed iterations
-  std::size_t num_correspondences = 0;             ///< used in the last iteration
+  Termination termination = Termination::kNotRun;                       ///< a forgotten call cannot pass for a result
+  int num_iterations = 0;                                               ///< completed iterations
+  std::size_t num_correspondences = 0;                                  ///< used in the last iteration
   double median_residual_m = std::numeric_limits<double>::quiet_NaN();  ///< [m] |distance to plane|, last iteration
   LpFigures lp;
 

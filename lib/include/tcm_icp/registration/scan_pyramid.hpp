@@ -17,8 +17,8 @@ struct PyramidLevel {
   NeighborIndex index;
 };
 
-/// Voxel edges double from level to level; level 0 is the finest. The levels of all scans of a set have the same edges, so
-/// that what is coarse for one is coarse for all.
+/// Voxel edges double from level to level; level 0 is the finest. The levels of all scans of a set have the same edges,
+/// so that what is coarse for one is coarse for all.
 class ScanPyramid {
  public:
   /// @param cloud             with normals [m]
@@ -36,9 +36,9 @@ class ScanPyramid {
   std::vector<PyramidLevel> levels_;
 };
 
-/// Voxel edge [m] at which the points occupy about `num_voxels` voxels, or half as many as there are points where that is
-/// fewer. Measured by bisection on the edge's logarithm, because the spacing along a scan line says little about the area a
-/// scan covers. O(N) a step, about ten steps.
+/// Voxel edge [m] at which the points occupy about `num_voxels` voxels, or half as many as there are points where that
+/// is fewer. Measured by bisection on the edge's logarithm, because the spacing along a scan line says little about the
+/// area a scan covers. O(N) a step, about ten steps.
 /// @throws InvalidInput  if all points are equal
 double voxel_size_for(const Points& points, std::size_t num_voxels);
 

@@ -18,12 +18,12 @@ struct AlignmentEvidence {
   double inlier_share = 0;     ///< share of the overlapping ones within the tolerance of their plane, normals agreeing
   double median_residual_m = 0;  ///< [m] distance to the plane, overlapping points
   double tolerance_m = 0;        ///< [m] what counted as within the noise
-  /// How much of the consensus is left when the pose slides along each of its six principal directions, weakest (most is
-  /// left) first: 1 where the sliding costs nothing.
+  /// How much of the consensus is left when the pose slides along each of its six principal directions, weakest (most
+  /// is left) first: 1 where the sliding costs nothing.
   std::array<double, 6> left_after_slide{};
   double slide_m = 0;  ///< [m] rms length of these slides
-  /// Consensus of the best other pose found nearby (structure that repeats), by this pose's: 1 is a tie. 0 where none was
-  /// found; NaN where none was looked for.
+  /// Consensus of the best other pose found nearby (structure that repeats), by this pose's: 1 is a tie. 0 where none
+  /// was found; NaN where none was looked for.
   double runner_up = std::numeric_limits<double>::quiet_NaN();
 
   /// Share of all held-out points that agree.
@@ -31,11 +31,11 @@ struct AlignmentEvidence {
 };
 
 struct VerificationOptions {
-  double gate_m = 0;         ///< [m] > 0; a target point this near makes a point overlap
-  double tolerance_m = 0;    ///< [m] > 0; distance to the plane within the noise
-  double slide_m = 0;        ///< [m] > 0; length of the trial slides
+  double gate_m = 0;                 ///< [m] > 0; a target point this near makes a point overlap
+  double tolerance_m = 0;            ///< [m] > 0; distance to the plane within the noise
+  double slide_m = 0;                ///< [m] > 0; length of the trial slides
   double max_normal_angle_deg = 30;  ///< [deg]
-  void validate() const;     ///< throws InvalidOptions
+  void validate() const;             ///< throws InvalidOptions
 };
 
 /// Principal directions are those of the point-to-plane information matrix (Gelfand et al., 2003): the weakest is the
