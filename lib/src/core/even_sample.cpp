@@ -12,4 +12,8 @@ Points even_sample(const Points& points, std::size_t max_count) {
   return sample;
 }
 
+Cloud even_sample(const Cloud& cloud, std::size_t max_count) {
+  return {even_sample(cloud.points, max_count), even_sample(cloud.normals, max_count)};
+}
+
 }  // namespace tcm_icp

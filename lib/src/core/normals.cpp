@@ -8,6 +8,7 @@
 #include "tcm_icp/core/error.hpp"
 #include "tcm_icp/core/even_sample.hpp"
 #include "tcm_icp/core/parallel.hpp"
+#include "tcm_icp/core/statistics.hpp"
 
 namespace tcm_icp {
 namespace {
@@ -89,9 +90,7 @@ double median_spacing(const Points& points, const NeighborIndex& index) {
     index.nearest_k(p, 2, neighbors);
     distances.push_back(std::sqrt(neighbors.back().squared_distance_m2));
   }
-  const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
-  std::nth_element(distances.begin(), middle, distances.end());
-  return *middle;
+  return median(distances);
 }
 
 }  // namespace tcm_icp

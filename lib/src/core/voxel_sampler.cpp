@@ -6,18 +6,13 @@
 #include <string>
 
 #include "tcm_icp/core/error.hpp"
+#include "tcm_icp/core/statistics.hpp"
 
 namespace tcm_icp {
 namespace {
 
 // The first voxel edge as a share of the scan's size: 2.5 mm for a scan whose points lie 10 m from its middle.
 constexpr double kFirstVoxelShare = 1.0 / 4096;
-
-double median(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 // Half the time a typical sample takes is look-ups, and nodes of std::unordered_map cost a cache miss each: keys lie in
 // one array (open addressing, linear probing), values are positions in the list of voxels.

@@ -9,6 +9,7 @@
 #include "outliers/outlier_detectors.hpp"
 #include "tcm_icp/core/even_sample.hpp"
 #include "tcm_icp/core/neighbor_index.hpp"
+#include "tcm_icp/core/statistics.hpp"
 
 namespace tcm_icp::detail {
 namespace {
@@ -31,9 +32,7 @@ double typical_spacing(const Points& points) {
     for (const auto& n : nearest) sum += std::sqrt(n.squared_distance_m2);
     spacings.push_back(sum / static_cast<double>(nearest.size() - 1));  // the point itself is at 0
   }
-  const auto middle = spacings.begin() + static_cast<std::ptrdiff_t>(spacings.size() / 2);
-  std::nth_element(spacings.begin(), middle, spacings.end());
-  return *middle;
+  return median(spacings);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "outliers/outlier_detectors.hpp"
+#include "tcm_icp/core/statistics.hpp"
 #include "tcm_icp/outliers/kmeans.hpp"
 #include "tcm_icp/outliers/kmeans_seeding.hpp"
 
@@ -11,13 +12,6 @@ namespace {
 constexpr double kVoxelsPerCluster = 16;  // four by four on a surface: enough to tell it from a stray
 constexpr double kStruckShare = 0.05;     // of a typical cluster's points; and always a single point
 constexpr double kFenceMads = 8;          // in standard deviations, were the distances normal
-constexpr double kMadToSigma = 1.4826;
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 // Median + 8 robust standard deviations of the points' distances to their centroids: beyond twice the seeding radius.
 double distance_fence(const KMeansResult& clusters) {
@@ -25,7 +19,7 @@ double distance_fence(const KMeansResult& clusters) {
   for (const double squared : clusters.squared_distance_m2) distances.push_back(std::sqrt(squared));
   const double middle = median(distances);
   for (double& d : distances) d = std::abs(d - middle);
-  return middle + kFenceMads * kMadToSigma * median(std::move(distances));
+  return middle + kFenceMads * kMadToSigma * median(distances);
 }
 
 // The size of the cluster that a random point lies in; clusters of single stray points do not pull it down.

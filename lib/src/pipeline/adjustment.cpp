@@ -6,11 +6,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "statistics.hpp"
 #include "tcm_icp/core/parallel.hpp"
-#include "tcm_icp/core/rigid_transform.hpp"
+#include "tcm_icp/core/statistics.hpp"
 #include "tcm_icp/graph/correspondence_measure.hpp"
 #include "tcm_icp/registration/correspondences.hpp"
+#include "tcm_icp/registration/refinement.hpp"
 
 namespace tcm_icp {
 namespace {
@@ -19,7 +19,6 @@ constexpr std::size_t kSharesOfSample = 3;  // each neighbour sees a third of a 
 constexpr double kGateInVoxels = 2;
 constexpr double kNormalAngle = std::numbers::pi / 6;
 constexpr double kHuberFactor = 1.345;  // 95 % efficient for normal errors (Huber, 1981)
-constexpr double kMadToSigma = 1.4826;  // median absolute value of a normal error to its standard deviation
 
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
@@ -60,28 +59,22 @@ double huber_threshold(const std::vector<DirectedLink>& links) {
   for (const auto& link : links) {
     for (const auto& m : link.matches) residuals.push_back(std::abs(m.normal.dot(m.source - m.target)));
   }
-  return residuals.empty() ? 0 : kHuberFactor * kMadToSigma * quantile(residuals, 0.5);
+  return residuals.empty() ? 0 : kHuberFactor * kMadToSigma * median(residuals);
 }
-
-// Rotations are taken about each scan's middle and measured by the arc at its extent: every unknown is a length.
-struct ScanFrame {
-  Eigen::Vector3d middle;
-  double radius_m;
-};
 
 struct LinkSums {
   Matrix6 tt = Matrix6::Zero(), ts = Matrix6::Zero(), ss = Matrix6::Zero();  // target and source blocks of J'WJ
   Twist t = Twist::Zero(), s = Twist::Zero();                                // and of -J'Wr
 };
 
-LinkSums sums_of(const DirectedLink& link, const ScanFrame& target, const ScanFrame& source, double threshold_m) {
+LinkSums sums_of(const DirectedLink& link, const TwistFrame& target, const TwistFrame& source, double threshold_m) {
   LinkSums sums;
   for (const auto& m : link.matches) {
     const double r = m.normal.dot(m.source - m.target);
     const double weight = std::abs(r) <= threshold_m ? 1 : threshold_m / std::abs(r);
     Twist js, jt;
-    js << (m.source - source.middle).cross(m.normal) / source.radius_m, m.normal;
-    jt << (m.source - target.middle).cross(m.normal) / target.radius_m, m.normal;
+    js << (m.source - source.centre).cross(m.normal) / source.radius_m, m.normal;
+    jt << (m.source - target.centre).cross(m.normal) / target.radius_m, m.normal;
     jt = -jt;
     sums.tt += weight * jt * jt.transpose();
     sums.ts += weight * jt * js.transpose();
@@ -124,15 +117,6 @@ class NormalEquations {
   std::vector<Eigen::Triplet<double>> entries_;
   Eigen::VectorXd rhs_;
 };
-
-ScanFrame frame_of(const PreparedScan& scan, const Eigen::Isometry3d& T) {
-  ScanFrame frame{Eigen::Vector3d::Zero(), 0};
-  const auto n = static_cast<double>(std::max<std::size_t>(1, scan.fine_sample.size()));
-  for (const auto& p : scan.fine_sample.points) frame.middle += T * p / n;
-  for (const auto& p : scan.fine_sample.points) frame.radius_m += (T * p - frame.middle).squaredNorm() / n;
-  frame.radius_m = std::max(std::sqrt(frame.radius_m), 1e-12);
-  return frame;
-}
 
 }  // namespace
 
@@ -182,8 +166,11 @@ double adjust_poses(const std::vector<PreparedScan>& scans, const ScanPairs& pai
                  context.num_threads, links);
     const double threshold_m = huber_threshold(links);
     if (!(threshold_m > 0)) return 0;  // nothing to match, or nothing left to improve
-    std::vector<ScanFrame> frames;
-    for (std::size_t i = 0; i < scans.size(); ++i) frames.push_back(frame_of(scans[i], T_reference_scan[i]));
+    std::vector<TwistFrame> frames;    // rotations are taken about each scan's middle, by the arc at its radius
+    for (std::size_t i = 0; i < scans.size(); ++i) {
+      const Points& points = scans[i].fine_sample.points;
+      frames.push_back(points.empty() ? TwistFrame() : twist_frame(points, T_reference_scan[i]));
+    }
     std::vector<LinkSums> sums(links.size());
     parallel_for(context.num_threads, links.size(), [&](std::size_t begin, std::size_t end) {
       for (std::size_t k = begin; k < end; ++k) {
@@ -206,11 +193,9 @@ double adjust_poses(const std::vector<PreparedScan>& scans, const ScanPairs& pai
     const Eigen::VectorXd x = equations.solve(1e-6 * trace / static_cast<double>(6 * scans.size()) + 1e-300);
     moved_m = std::sqrt(x.squaredNorm() / static_cast<double>(scans.size()));
     for (std::size_t i = 0; i < scans.size(); ++i) {
-      Twist twist = x.segment<6>(static_cast<Eigen::Index>(6 * i));
+      const Twist twist = x.segment<6>(static_cast<Eigen::Index>(6 * i));
       if (i == reference || twist.isZero()) continue;
-      twist.head<3>() /= frames[i].radius_m;
-      T_reference_scan[i] = isometry_about(frames[i].middle, twist) * T_reference_scan[i];
-      T_reference_scan[i].linear() = project_onto_so3(T_reference_scan[i].linear());
+      T_reference_scan[i] = frames[i].moved(T_reference_scan[i], twist);
     }
   }
   return moved_m;

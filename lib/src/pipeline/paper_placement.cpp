@@ -29,29 +29,15 @@ Eigen::Isometry3d place_scan_as_printed(const PreparedScan& scan, const ScanPyra
   const TcmCloud fixed(target.cloud.points), moving(scan.pyramid.level(0).cloud.points),
       kept(scan.held_out_sample.points);
   const TcmEvaluator tau(fixed, moving), held_out_tau(fixed, kept);
-  TwistFrame frame;
-  frame.centre = T * moving.centroid();
-  double squared = 0;
-  for (const auto& p : scan.pyramid.level(0).cloud.points) squared += (p - moving.centroid()).squaredNorm();
-  frame.radius_m = std::max(std::sqrt(squared / static_cast<double>(moving.size())), 1e-12);
+  const TwistFrame frame = twist_frame(scan.pyramid.level(0).cloud.points, T);
   const double step_m = kMarginalStep * target.voxel_size_m;
   const RefinementOptions& o = options.refinement;
   if (o.method == Refinement::kDescent || o.method == Refinement::kDescentThenAnnealing) {
-    DescentOptions descent;
-    descent.initial_step_m = step_m;
-    descent.min_step_m = step_m / 16;
-    descent.max_steps = o.descent_steps;
-    record.descent = descend(tau, {}, held_out_tau, frame, T, descent);
+    record.descent = descend(tau, {}, held_out_tau, frame, T, descent_options(o, step_m, step_m / 16));
     T = record.descent->T_target_source;
   }
   if (o.method == Refinement::kAnnealing || o.method == Refinement::kDescentThenAnnealing) {
-    AnnealingOptions annealing;
-    annealing.initial_step_m = step_m;
-    annealing.final_step_m = step_m / 16;
-    annealing.num_steps = o.annealing_steps;
-    annealing.initial_temperature = o.initial_temperature;
-    annealing.final_temperature = o.final_temperature;
-    record.annealing = anneal(tau, held_out_tau, frame, T, annealing, rng);
+    record.annealing = anneal(tau, held_out_tau, frame, T, annealing_options(o, step_m, step_m / 16), rng);
     T = record.annealing->T_target_source;
   }
   return T;

@@ -15,6 +15,8 @@ namespace tcm_icp {
 /// The linear programs start from gates of 8, 16, 4 and 32 coarse voxels in turn, because nothing tells how far off the
 /// initial guess is; the first that passes verification ends the turn, otherwise the one with the largest consensus
 /// counts. If none passes, annealing searches from the initial guess, and the programs start again from what it finds.
+/// Then other poses nearby are tried (pose_search.hpp): the largest consensus wins, and a close runner-up makes the
+/// pose ambiguous.
 Eigen::Isometry3d place_scan(const PreparedScan& scan, const ScanPyramid& merged, const Eigen::Isometry3d& T_init,
                              const PipelineOptions& options, Rng& rng, MergeRecord& record);
 
@@ -22,5 +24,9 @@ Eigen::Isometry3d place_scan(const PreparedScan& scan, const ScanPyramid& merged
 Eigen::Isometry3d place_scan_as_printed(const PreparedScan& scan, const ScanPyramid& merged,
                                         const Eigen::Isometry3d& T_init, const PipelineOptions& options, Rng& rng,
                                         MergeRecord& record);
+
+/// The refinement's own options with steps from the data.
+DescentOptions descent_options(const RefinementOptions& options, double first_step_m, double last_step_m);
+AnnealingOptions annealing_options(const RefinementOptions& options, double first_step_m, double last_step_m);
 
 }  // namespace tcm_icp

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "statistics.hpp"
 #include "tcm_icp/core/parallel.hpp"
 #include "tcm_icp/core/random.hpp"
+#include "tcm_icp/core/statistics.hpp"
 #include "tcm_icp/core/voxel_sampler.hpp"
 #include "tcm_icp/registration/normal_space_sampling.hpp"
 
@@ -56,7 +56,7 @@ Resolutions choose_resolutions(const std::vector<SampledScan>& scans, const Samp
       fine[i] = voxel_size_for(scans[i].scan.cloud.points, options.fine_voxels);
     }
   });
-  return {quantile(coarse, 0.5), quantile(fine, 0.5)};
+  return {median(coarse), median(fine)};
 }
 
 PreparedScan prepare_scan(const SampledScan& scan, const Resolutions& resolutions, const PlacementOptions& options,

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 
-#include "statistics.hpp"
 #include "tcm_icp/core/error.hpp"
 #include "tcm_icp/core/neighbor_index.hpp"
 #include "tcm_icp/core/normals.hpp"
 #include "tcm_icp/core/random.hpp"
+#include "tcm_icp/core/statistics.hpp"
 #include "tcm_icp/core/voxel_sampler.hpp"
 #include "tcm_icp/io/scan_reader.hpp"
 
@@ -21,7 +21,7 @@ double robust_extent(const Points& points) {
   Eigen::Vector3d middle;
   for (int axis = 0; axis < 3; ++axis) {
     for (std::size_t i = 0; i < points.size(); ++i) values[i] = points[i][axis];
-    middle[axis] = quantile(values, 0.5);
+    middle[axis] = median(values);
   }
   for (std::size_t i = 0; i < points.size(); ++i) values[i] = (points[i] - middle).norm();
   return quantile(values, 0.9);
@@ -81,7 +81,7 @@ SampledScan sample_scan(const std::filesystem::path& path, const PipelineOptions
   for (std::size_t i = 0; i < estimate.normals.size(); ++i) {
     if (!estimate.normals[i].isZero()) roughness.push_back(estimate.roughness_m[i]);
   }
-  scan.noise_m = roughness.empty() ? 0 : quantile(roughness, 0.5);
+  scan.noise_m = roughness.empty() ? 0 : median(roughness);
   out.surface_normals = estimate.normals;
   for (std::size_t i = 0; i < estimate.normals.size(); ++i) {
     if (estimate.variation[i] > options.sampling.max_surface_variation) out.surface_normals[i].setZero();

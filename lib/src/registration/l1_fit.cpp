@@ -9,6 +9,7 @@
 
 #include "tcm_icp/core/error.hpp"
 #include "tcm_icp/core/random.hpp"
+#include "tcm_icp/core/statistics.hpp"
 
 namespace tcm_icp {
 namespace {
@@ -64,9 +65,7 @@ double median_nonzero_magnitude(const Eigen::VectorXd& d) {
     if (value != 0) magnitudes.push_back(std::abs(value));
   }
   if (magnitudes.empty()) return 0;
-  const auto middle = magnitudes.begin() + static_cast<std::ptrdiff_t>(magnitudes.size() / 2);
-  std::nth_element(magnitudes.begin(), middle, magnitudes.end());
-  return *middle;
+  return median(magnitudes);
 }
 
 LinearProgram dual_program(const Eigen::MatrixXd& A, const Eigen::VectorXd& d, const Eigen::VectorXd& weights,

@@ -1,19 +1,13 @@
 #pragma once
-// Adds up what the linear programs of a registration did.
-
-#include <cmath>
+// What one linear program says to the registration it serves.
 
 #include "tcm_icp/registration/l1_fit.hpp"
 #include "tcm_icp/registration/registration_result.hpp"
 
 namespace tcm_icp {
 
-inline void add_to(LpFigures& figures, const L1FitResult& fit) {
-  figures.num_programs += 1;
-  figures.num_pivots += fit.pivots;
-  figures.seconds += fit.seconds;
-  figures.objective = fit.objective;
-  figures.relative_duality_gap = std::fmax(figures.relative_duality_gap, fit.duality_gap);
+inline LpFigures figures_of(const L1FitResult& fit) {
+  return {1, fit.pivots, fit.objective, fit.duality_gap, fit.seconds};
 }
 
 inline Termination termination_of(LpStatus status) {

@@ -8,6 +8,7 @@
 #include "lp_figures.hpp"
 #include "tcm_icp/core/error.hpp"
 #include "tcm_icp/core/rigid_transform.hpp"
+#include "tcm_icp/core/statistics.hpp"
 
 namespace tcm_icp {
 namespace {
@@ -18,9 +19,7 @@ double median_plane_distance(const std::vector<Correspondence>& matches) {
   std::vector<double> values;
   values.reserve(matches.size());
   for (const auto& m : matches) values.push_back(std::abs(m.normal.dot(m.source - m.target)));
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+  return median(values);
 }
 
 }  // namespace
@@ -43,6 +42,15 @@ std::string_view to_string(Termination termination) {
       return "LP failed";
   }
   return "unknown";
+}
+
+LpFigures& LpFigures::operator+=(const LpFigures& later) {
+  num_programs += later.num_programs;
+  num_pivots += later.num_pivots;
+  if (later.num_programs > 0) objective = later.objective;
+  relative_duality_gap = std::fmax(relative_duality_gap, later.relative_duality_gap);  // NaN is "none yet"
+  seconds += later.seconds;
+  return *this;
 }
 
 void LpRegistrationOptions::validate() const {
@@ -84,7 +92,7 @@ Termination lp_point_to_plane_step(const std::vector<Correspondence>& matches, c
     d[i] = -m.normal.dot(m.source - m.target);
   }
   const L1FitResult fit = fit_l1(A, d, options);
-  add_to(figures, fit);
+  figures += figures_of(fit);
   if (!fit.optimal()) return termination_of(fit.status);
   Twist twist = fit.x;
   twist.head<3>() /= radius;

@@ -7,15 +7,10 @@
 #include "lp_figures.hpp"
 #include "tcm_icp/core/error.hpp"
 #include "tcm_icp/core/rigid_transform.hpp"
+#include "tcm_icp/core/statistics.hpp"
 
 namespace tcm_icp {
 namespace {
-
-double median(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 Eigen::Vector3d centroid(const Points& points) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -54,7 +49,7 @@ Termination paper_simplex_step(const Points& source, const Points& target, const
   for (int axis = 0; axis < 3; ++axis) {
     for (Eigen::Index i = 0; i < n; ++i) d[i] = target[static_cast<std::size_t>(i)][axis];
     const L1FitResult fit = fit_l1(A, d, options);
-    add_to(figures, fit);
+    figures += figures_of(fit);
     if (!fit.optimal()) return termination_of(fit.status);
     linear.row(axis) = fit.x.head<3>().transpose();
     objective += fit.objective;

@@ -31,6 +31,19 @@ Eigen::Isometry3d TwistFrame::moved(const Eigen::Isometry3d& T_target_source, co
   return T;
 }
 
+TwistFrame twist_frame(const Points& points, const Eigen::Isometry3d& T_target_source) {
+  if (points.empty()) throw InvalidInput("a twist frame needs at least one point");
+  const auto n = static_cast<double>(points.size());
+  Eigen::Vector3d centroid = Eigen::Vector3d::Zero();
+  for (const auto& p : points) centroid += p;
+  centroid /= n;
+  double squared = 0;
+  for (const auto& p : points) squared += (p - centroid).squaredNorm();
+  // Points all in one place leave rotations without effect: any radius does, but zero.
+  const double radius_m = squared > 0 ? std::sqrt(squared / n) : 1;
+  return {T_target_source * centroid, radius_m};
+}
+
 void DescentOptions::validate() const {
   require(initial_step_m > 0, "descent initial_step_m must be above 0 m", initial_step_m);
   require(min_step_m > 0 && min_step_m <= initial_step_m,

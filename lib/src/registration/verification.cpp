@@ -8,6 +8,7 @@
 
 #include "tcm_icp/core/error.hpp"
 #include "tcm_icp/core/rigid_transform.hpp"
+#include "tcm_icp/core/statistics.hpp"
 #include "tcm_icp/registration/refinement.hpp"
 
 namespace tcm_icp {
@@ -51,16 +52,6 @@ Tally take_tally(const Cloud& points, const PyramidLevel& target, const Eigen::I
   return tally;
 }
 
-TwistFrame frame_of(const Cloud& cloud, const Eigen::Isometry3d& T) {
-  TwistFrame frame;
-  for (const auto& p : cloud.points) frame.centre += T * p;
-  frame.centre /= static_cast<double>(cloud.size());
-  double squared = 0;
-  for (const auto& p : cloud.points) squared += (T * p - frame.centre).squaredNorm();
-  frame.radius_m = std::sqrt(squared / static_cast<double>(cloud.size()));
-  return frame;
-}
-
 }  // namespace
 
 void VerificationOptions::validate() const {
@@ -85,14 +76,12 @@ AlignmentEvidence verify_alignment(const Cloud& held_out, const PyramidLevel& ta
   evidence.slide_m = options.slide_m;
   evidence.left_after_slide.fill(1);
   if (held_out.size() < 2) return evidence;
-  const TwistFrame frame = frame_of(held_out, T_target_source);
+  const TwistFrame frame = twist_frame(held_out.points, T_target_source);
   Tally tally = take_tally(held_out, target, T_target_source, options, &frame);
   evidence.overlap = static_cast<double>(tally.overlapping) / static_cast<double>(held_out.size());
   if (tally.agreeing == 0) return evidence;
   evidence.inlier_share = static_cast<double>(tally.agreeing) / static_cast<double>(tally.overlapping);
-  const auto middle = tally.residuals_m.begin() + static_cast<std::ptrdiff_t>(tally.residuals_m.size() / 2);
-  std::nth_element(tally.residuals_m.begin(), middle, tally.residuals_m.end());
-  evidence.median_residual_m = *middle;
+  evidence.median_residual_m = median(tally.residuals_m);
 
   const Eigen::SelfAdjointEigenSolver<Information> axes(tally.information);
   for (int k = 0; k < 6; ++k) {

@@ -11,4 +11,7 @@ namespace tcm_icp {
 /// them where N <= max_count. O(max_count).
 Points even_sample(const Points& points, std::size_t max_count);
 
+/// The same of a cloud, normals with their points.
+Cloud even_sample(const Cloud& cloud, std::size_t max_count);
+
 }  // namespace tcm_icp

@@ -26,6 +26,10 @@ struct TwistFrame {
   Eigen::Isometry3d moved(const Eigen::Isometry3d& T_target_source, const Twist& step_m) const;
 };
 
+/// The frame of a cloud under a pose: its centroid and RMS radius.
+/// @throws InvalidInput  if there are no points
+TwistFrame twist_frame(const Points& points, const Eigen::Isometry3d& T_target_source);
+
 struct DescentOptions {
   double initial_step_m = 0;  ///< [m] > 0; the first marginal increase and decrease
   double min_step_m = 0;      ///< [m] > 0, <= initial_step_m; the descent ends when its step falls below

@@ -27,6 +27,8 @@ struct LpFigures {
   double objective = std::numeric_limits<double>::quiet_NaN();             ///< [m] of the last program
   double relative_duality_gap = std::numeric_limits<double>::quiet_NaN();  ///< largest over all programs
   double seconds = 0;                                                      ///< in the solver, over all programs
+
+  LpFigures& operator+=(const LpFigures& later);
 };
 
 struct RegistrationResult {
