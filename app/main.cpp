@@ -2,6 +2,7 @@
 
 #include <array>
 #include <boost/program_options/errors.hpp>
+#include <csignal>
 #include <exception>
 #include <iostream>
 #include <new>
@@ -28,7 +29,8 @@ constexpr std::array kCommands{
 };
 
 void print_help(std::ostream& out) {
-  out << "tcm-icp " << kVersion << ": registers many LiDAR scans into one frame\n\nUsage: tcm-icp COMMAND [OPTIONS]\n\n";
+  out << "tcm-icp " << kVersion
+      << ": registers many LiDAR scans into one frame\n\nUsage: tcm-icp COMMAND [OPTIONS]\n\n";
   for (const auto& c : kCommands) out << "  " << c.name << std::string(12 - c.name.size(), ' ') << c.summary << '\n';
   out << "\n'tcm-icp COMMAND --help' lists a command's options, 'tcm-icp --version' the version.\n"
          "Exit codes: 0 all scans registered; 1 wrong usage; 2 input cannot be read; 3 some scan is unregistered;\n"
@@ -38,6 +40,12 @@ void print_help(std::ostream& out) {
 int fail(ExitCode code, std::string_view message) {
   std::cerr << "tcm-icp: " << message << '\n';
   return code;
+}
+
+// A table that did not arrive (disk full) is a failure, too.
+int with_stdout_written(int code) {
+  if (std::cout.flush()) return code;
+  return fail(kOutputError, "standard output: cannot be written; check the disk's free space");
 }
 
 int run(int argc, char** argv) {
@@ -55,7 +63,7 @@ int run(int argc, char** argv) {
     return kSuccess;
   }
   for (const auto& c : kCommands) {
-    if (c.name == name) return c.run(Arguments(argv + 2, argv + argc));
+    if (c.name == name) return with_stdout_written(c.run(Arguments(argv + 2, argv + argc)));
   }
   return fail(kUsageError, "unknown command '" + std::string(name) + "'; 'tcm-icp --help' lists the commands");
 }
@@ -63,6 +71,7 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  std::signal(SIGXFSZ, SIG_IGN);  // a limit on file sizes is an error of writing, to be cleaned up after
   try {
     return run(argc, argv);
   } catch (const tcm_icp::Cancelled& e) {
@@ -70,7 +79,8 @@ int main(int argc, char** argv) {
   } catch (const tcm_icp::InvalidOptions& e) {
     return fail(kUsageError, e.what());
   } catch (const boost::program_options::error& e) {
-    return fail(kUsageError, std::string(e.what()) + "; 'tcm-icp " + (argc > 1 ? argv[1] : "") + " --help' lists the options");
+    return fail(kUsageError,
+                std::string(e.what()) + "; 'tcm-icp " + (argc > 1 ? argv[1] : "") + " --help' lists the options");
   } catch (const tcm_icp::OutputError& e) {
     return fail(kOutputError, e.what());
   } catch (const tcm_icp::Error& e) {
