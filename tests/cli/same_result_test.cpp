@@ -41,7 +41,8 @@ TEST_F(SameResult, ForOneThreadAndTwoAndFromRunToRun) {
   }
 }
 
-// The order of the pairs decides which direction of a pair is adjusted, hence the tolerance: that of the scene's truth.
+// Placing gives the same bits for any order, but which points of a scan the joint adjustment matches against another
+// goes by that other's place in the list; hence a tolerance, that of the scene's truth.
 TEST_F(SameResult, ForAnyOrderOfTheFilesUpToTheAccuracyOfThePoses) {
   EXPECT_EQ(run_to("forwards", town() + Words{"--reference", "002.ply"}), 0);
   Words backwards = town_scans({3, 5, 1, 0, 4, 2});
