@@ -1,6 +1,7 @@
 #include "tcm_icp/pipeline/pipeline.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <set>
 #include <string>
 
@@ -46,9 +47,9 @@ void check_paths(const std::vector<std::filesystem::path>& paths, const InitialP
   }
 }
 
-std::size_t find_scan(const std::vector<SampledScan>& scans, const std::string& name) {
-  for (std::size_t i = 0; i < scans.size(); ++i) {
-    if (scans[i].scan.file == name || scans[i].scan.path == name) return i;
+std::size_t find_scan(const std::vector<std::filesystem::path>& paths, const std::string& name) {
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    if (paths[i].filename() == name || paths[i] == name) return i;
   }
   throw InvalidOptions("--reference " + name + ": no scan of that name; it must be one of the files given");
 }
@@ -59,6 +60,7 @@ class Run {
       : options_(options), context_(context), clock_(result_.stages) {}
 
   PipelineResult operator()(const std::vector<std::filesystem::path>& paths, const InitialPoses& initial_poses) {
+    if (!options_.reference.empty()) asked_reference_ = find_scan(paths, options_.reference);
     clock_.begin("read and sample");
     read_scans(paths);
     clock_.begin("prepare");
@@ -136,7 +138,7 @@ class Run {
       threshold = 1 - kMinLinkOverlap;
     }
     result_.graph = build_correspondence_graph(measure, threshold);
-    result_.reference = options_.reference.empty() ? result_.graph.reference : find_scan(sampled_, options_.reference);
+    result_.reference = asked_reference_.value_or(result_.graph.reference);
     result_.graph.reference = result_.reference;
   }
 
@@ -289,6 +291,7 @@ class Run {
   PipelineResult result_;
   StageClock clock_;
   std::vector<SampledScan> sampled_;
+  std::optional<std::size_t> asked_reference_;
   Resolutions resolutions_;
   std::vector<PreparedScan> scans_;
   std::vector<Eigen::Isometry3d> T_init_;            // common frame of the initial poses <- local frame
