@@ -129,8 +129,6 @@ int cmd_inspect(const Arguments& arguments) {
   } else {
     print_text(inspection, o.pipeline.profile == Profile::kPaper, std::cout);
   }
-  std::cout.flush();
-  if (!std::cout) throw OutputError("standard output", "cannot be written", "check where it is sent to");
   return kSuccess;
 }
 

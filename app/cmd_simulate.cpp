@@ -5,9 +5,10 @@
 #include <thread>
 
 #include "command.hpp"
+#include "console.hpp"
 #include "option_binding.hpp"
-#include "output_folder.hpp"
 #include "tcm_icp/core/error.hpp"
+#include "tcm_icp/io/output_folder.hpp"
 #include "tcm_icp/simulation/scene_set.hpp"
 
 namespace tcm_icp::app {
@@ -87,10 +88,15 @@ int cmd_simulate(const Arguments& arguments) {
   if (request.context.num_threads < 1)
     throw InvalidOptions("--threads = " + std::to_string(request.context.num_threads) + "; needs >= 1");
   request.scenes.validate();
+  catch_interrupts();
+  Console console(/*quiet=*/false, /*verbose=*/false);
+  request.context.on_progress = [&](const Progress& p) { return console.progress(p); };
   OutputFolder folder(request.out, given.count("force") > 0, "truth.json");
   const SceneSet set = simulate_scene_set(request.scenes, request.context);
+  request.context.report("writing", 0, 1);
   write_scene_set(set, folder.work());
   folder.commit();
+  console.finish();
   print_summary(set, std::cerr);
   return kSuccess;
 }

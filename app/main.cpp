@@ -2,6 +2,7 @@
 
 #include <array>
 #include <boost/program_options/errors.hpp>
+#include <csignal>
 #include <exception>
 #include <iostream>
 #include <new>
@@ -42,6 +43,12 @@ int fail(ExitCode code, std::string_view message) {
   return code;
 }
 
+// A table that did not arrive (disk full) is a failure, too.
+int with_stdout_written(int code) {
+  if (std::cout.flush()) return code;
+  return fail(kOutputError, "standard output: cannot be written; check the disk's free space");
+}
+
 int run(int argc, char** argv) {
   if (argc < 2) {
     print_help(std::cerr);
@@ -57,7 +64,7 @@ int run(int argc, char** argv) {
     return kSuccess;
   }
   for (const auto& c : kCommands) {
-    if (c.name == name) return c.run(Arguments(argv + 2, argv + argc));
+    if (c.name == name) return with_stdout_written(c.run(Arguments(argv + 2, argv + argc)));
   }
   return fail(kUsageError, "unknown command '" + std::string(name) + "'; 'tcm-icp --help' lists the commands");
 }
@@ -65,6 +72,7 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  std::signal(SIGXFSZ, SIG_IGN);  // a limit on file sizes is an error of writing, to be cleaned up after
   try {
     return run(argc, argv);
   } catch (const tcm_icp::Cancelled& e) {

@@ -172,6 +172,34 @@ void finish(ScanSetOptions& o, const Choices& choices) {
   o.pipeline.validate();
 }
 
+// The library takes -1 for the largest whole number there is.
+void refuse_negative_counts(const po::parsed_options& parsed, const po::variables_map& map) {
+  for (const auto& option : parsed.options) {
+    const auto at = map.find(option.string_key);
+    if (at == map.end() || boost::any_cast<std::uint64_t>(&at->second.value()) == nullptr) continue;
+    if (option.value.at(0).front() == '-') {
+      throw InvalidOptions("--" + option.string_key + " must be at least 0, not " + option.value[0]);
+    }
+  }
+}
+
+void store_checked(const po::parsed_options& parsed, po::variables_map& map) {
+  po::store(parsed, map);
+  refuse_negative_counts(parsed, map);
+}
+
+void read_config(const std::string& path, const po::options_description& options, po::variables_map& map) {
+  std::ifstream in(path);
+  if (!in || std::filesystem::is_directory(path)) {
+    throw InputError(path, "", "the option file cannot be opened", "check the path given to --config");
+  }
+  try {
+    store_checked(po::parse_config_file(in, options), map);
+  } catch (const po::error& e) {
+    throw InvalidOptions(path + ": " + e.what() + "; --print-config shows what may stand there");
+  }
+}
+
 }  // namespace
 
 RegisterOptions parse_register_options(const Arguments& arguments) {
@@ -187,14 +215,8 @@ RegisterOptions parse_register_options(const Arguments& arguments) {
   positional.add("scan", -1);
 
   po::variables_map map;
-  po::store(po::command_line_parser(arguments).options(all).positional(positional).style(kStyle).run(), map);
-  if (map.count("config") != 0) {
-    const auto path = map["config"].as<std::string>();
-    std::ifstream in(path);
-    if (!in || std::filesystem::is_directory(path))
-      throw InputError(path, "", "the option file cannot be opened", "check the path given to --config");
-    po::store(po::parse_config_file(in, file_options), map);
-  }
+  store_checked(po::command_line_parser(arguments).options(all).positional(positional).style(kStyle).run(), map);
+  if (map.count("config") != 0) read_config(map["config"].as<std::string>(), file_options, map);
   po::notify(map);
   finish(o, choices);
   return o;
@@ -208,7 +230,7 @@ InspectOptions parse_inspect_options(const Arguments& arguments) {
   po::positional_options_description positional;
   positional.add("scan", -1);
   po::variables_map map;
-  po::store(po::command_line_parser(arguments).options(all).positional(positional).style(kStyle).run(), map);
+  store_checked(po::command_line_parser(arguments).options(all).positional(positional).style(kStyle).run(), map);
   po::notify(map);
   finish(o, choices);
   return o;

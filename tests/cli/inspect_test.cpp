@@ -1,50 +1,29 @@
 // tcm-icp inspect, as a user runs it.
 
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
-#include <cstdlib>
 #include <nlohmann/json.hpp>
 
-#include "io/temp_files.hpp"
+#include "cli_test.hpp"
+#include "result_files.hpp"
 
 namespace tcm_icp::test {
 namespace {
 
 using Json = nlohmann::json;
-namespace fs = std::filesystem;
 
 constexpr int kNumTownScans = 6;
 
-class Inspect : public testing::Test {
+const Words kTown = town_scans() + Words{"--init", town_file("initial_poses.json").string()};
+const Words kFirst = town_scans({0});
+
+class Inspect : public CliTest {
  protected:
-  struct Outcome {
-    int exit_code = -1;
-    std::string out, err;
-  };
-
-  Outcome run(const std::string& arguments) const {
-    const fs::path out = folder_.path() / "out", err = folder_.path() / "err";
-    const std::string line =
-        "'" TCM_ICP_EXECUTABLE "' " + arguments + " >'" + out.string() + "' 2>'" + err.string() + "'";
-    const int status = std::system(line.c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_text(out), read_text(err)};
+  Json inspect(const Words& arguments) const {
+    const RunResult result = run(Words{"inspect", "--json"} + arguments);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return Json::parse(result.out);
   }
-
-  static std::string town(int scan) { return " '" TCM_ICP_TOWN "/00" + std::to_string(scan) + ".ply'"; }
-  static std::string town() {
-    std::string all;
-    for (int i = 0; i < kNumTownScans; ++i) all += town(i);
-    return all + " --init '" TCM_ICP_TOWN "/initial_poses.json'";
-  }
-
-  Json run_json(const std::string& arguments) const {
-    const Outcome outcome = run("inspect --json" + arguments);
-    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-    return Json::parse(outcome.out);
-  }
-
-  TempFolder folder_;
 };
 
 void expect_symmetric(const Json& matrix) {
@@ -60,23 +39,23 @@ void expect_symmetric(const Json& matrix) {
 }
 
 TEST_F(Inspect, MeasuresEveryPairBothWaysAlike) {
-  const Json json = run_json(town());
+  const Json json = inspect(kTown);
   expect_symmetric(json["tcm"]["paper_m4"]);
   expect_symmetric(json["tcm"]["robust_m2"]);
 }
 
 // Stations follow a path, so of all pairs the two ends of it share least; the guess is near enough to see that.
 TEST_F(Inspect, FindsTheNearestStationMoreCompatibleThanTheFarthest) {
-  const Json robust = run_json(town())["tcm"]["robust_m2"];
+  const Json robust = inspect(kTown)["tcm"]["robust_m2"];
   EXPECT_LT(robust[0][1].get<double>(), robust[0][5].get<double>() / 2);
 }
 
 TEST_F(Inspect, CountsWhatTheFilesHold) {
-  const Json json = run_json(town());
+  const Json json = inspect(kTown);
   ASSERT_EQ(json["scans"].size(), kNumTownScans);
   for (int i = 0; i < kNumTownScans; ++i) {
     const Json& scan = json["scans"][static_cast<std::size_t>(i)];
-    const WholeScan whole = read_whole(fs::path(TCM_ICP_TOWN) / scan["file"].get<std::string>(), ReadAttributes::kNo);
+    const WholeScan whole = read_whole(town_file(scan["file"]), ReadAttributes::kNo);
     EXPECT_EQ(scan["points"], whole.block.size());
     EXPECT_EQ(scan["dropped_points"], 0);
     EXPECT_LE(scan["working_points"].get<std::size_t>() + scan["outliers"]["working_points_removed"].get<std::size_t>(),
@@ -96,67 +75,60 @@ TEST_F(Inspect, CountsWhatTheFilesHold) {
 
 TEST_F(Inspect, BuildsTheGraphAndReferenceOfRegister) {
   for (const std::string profile : {"robust", "paper"}) {
-    const Json graph = run_json(town() + " --profile " + profile)["graph"];
-    const fs::path result = folder_.path() / profile;
-    // Small fits: what comes before them is what is compared.
-    const Outcome outcome =
-        run("register" + town() + " --profile " + profile + " --refinement none --out '" + result.string() + "'");
+    const Json graph = inspect(kTown + Words{"--profile", profile})["graph"];
+    const RunResult outcome =
+        run(Words{"register"} + kTown + Words{"--profile", profile, "--refinement", "none", "--out", profile});
     ASSERT_TRUE(outcome.exit_code == 0 || outcome.exit_code == 3) << outcome.err;
-    const Json report = Json::parse(read_text(result / "report.json"));
+    const Json report = read_json(folder() / profile / "report.json");
     EXPECT_EQ(graph, report["graph"]) << profile;
-    EXPECT_EQ(graph["reference"], Json::parse(read_text(result / "poses.json"))["reference"]) << profile;
+    EXPECT_EQ(graph["reference"], read_json(folder() / profile / "poses.json")["reference"]) << profile;
   }
 }
 
 TEST_F(Inspect, SaysTheSameWhateverTheNumberOfThreads) {
-  Json one = run_json(town() + " --threads 1"), four = run_json(town() + " --threads 4");
+  Json one = inspect(kTown + Words{"--threads", "1"}), four = inspect(kTown + Words{"--threads", "4"});
   one.erase("command_line");
   four.erase("command_line");
   EXPECT_EQ(one, four);
 }
 
 TEST_F(Inspect, PrintsTablesWithTheSameReference) {
-  const Outcome outcome = run("inspect" + town());
+  const RunResult outcome = run(Words{"inspect"} + kTown);
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  const std::string reference = run_json(town())["graph"]["reference"];
+  const std::string reference = inspect(kTown)["graph"]["reference"];
   EXPECT_NE(outcome.out.find("reference: " + reference + "\n"), std::string::npos) << outcome.out;
   EXPECT_NE(outcome.out.find("TCM as printed"), std::string::npos);
   EXPECT_NE(outcome.out.find("26231"), std::string::npos) << "points of 000.ply";
 }
 
 TEST_F(Inspect, TellsOfOneScanWhatThereIs) {
-  const Json json = run_json(town(0));
+  const Json json = inspect(kFirst);
   EXPECT_EQ(json["scans"].size(), 1);
   EXPECT_TRUE(json["tcm"].is_null());
   EXPECT_TRUE(json["graph"].is_null());
-  const Outcome text = run("inspect" + town(0));
+  const RunResult text = run(Words{"inspect"} + kFirst);
   EXPECT_EQ(text.exit_code, 0) << text.err;
   EXPECT_EQ(text.out.find("TCM"), std::string::npos);
 }
 
 TEST_F(Inspect, KeepsEveryPointWhereNoOutliersAreAskedFor) {
-  const Json none = run_json(town(0) + " --outliers none")["scans"][0];
+  const Json none = inspect(kFirst + Words{"--outliers", "none"})["scans"][0];
   EXPECT_EQ(none["outliers"]["working_points_removed"], 0);
-  EXPECT_GT(none["working_points"], run_json(town(0))["scans"][0]["working_points"]);
+  EXPECT_GT(none["working_points"], inspect(kFirst)["scans"][0]["working_points"]);
 }
 
 TEST_F(Inspect, RefusesWhatItCannotReadOrDo) {
-  const auto broken = folder_.write("broken.ply", "ply\nformat ascii 1.0\n");
-  const std::pair<std::string, int> cases[] = {{"inspect missing.ply", 2},
-                                               {"inspect '" + broken.string() + "'", 2},
-                                               {"inspect" + town(0) + town(0), 2},
-                                               {"inspect" + town(0) + " --init missing.json", 2},
-                                               {"inspect", 1},
-                                               {"inspect --nonsense" + town(0), 1},
-                                               {"inspect --threads -1" + town(0), 1},
-                                               {"inspect --outliers nonsense" + town(0), 1},
-                                               {"inspect --out result" + town(0), 1}};
-  for (const auto& [arguments, code] : cases) {
-    const Outcome outcome = run(arguments);
-    EXPECT_EQ(outcome.exit_code, code) << arguments << '\n' << outcome.err;
-    EXPECT_EQ(outcome.out, "") << arguments;
-    EXPECT_NE(outcome.err.find("tcm-icp: "), std::string::npos) << arguments;
-  }
+  const std::string broken = folder_.write("broken.ply", "ply\nformat ascii 1.0\n").string();
+  const Words inspect{"inspect"};
+  expect_refusal(inspect + Words{"missing.ply"}, 2, {"missing.ply"});
+  expect_refusal(inspect + Words{broken}, 2, {"broken.ply"});
+  expect_refusal(inspect + kFirst + kFirst, 2, {"named twice"});
+  expect_refusal(inspect + kFirst + Words{"--init", "missing.json"}, 2, {"missing.json"});
+  expect_refusal(inspect, 1, {"no scan"});
+  expect_refusal(inspect + Words{"--nonsense"} + kFirst, 1, {"--nonsense"});
+  expect_refusal(inspect + Words{"--threads", "-1"} + kFirst, 1, {"--threads"});
+  expect_refusal(inspect + Words{"--outliers", "nonsense"} + kFirst, 1, {"kmeans, distance, lof, none"});
+  expect_refusal(inspect + Words{"--out", "result"} + kFirst, 1, {"--out"});
 }
 
 }  // namespace

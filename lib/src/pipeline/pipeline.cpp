@@ -1,6 +1,7 @@
 #include "tcm_icp/pipeline/pipeline.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <string>
 
 #include "adjustment.hpp"
@@ -17,9 +18,9 @@
 namespace tcm_icp {
 namespace {
 
-std::size_t find_scan(const std::vector<SampledScan>& scans, const std::string& name) {
-  for (std::size_t i = 0; i < scans.size(); ++i) {
-    if (scans[i].scan.file == name || scans[i].scan.path == name) return i;
+std::size_t find_scan(const std::vector<std::filesystem::path>& paths, const std::string& name) {
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    if (paths[i].filename() == name || paths[i] == name) return i;
   }
   throw InvalidOptions("--reference " + name + ": no scan of that name; it must be one of the files given");
 }
@@ -30,6 +31,7 @@ class Run {
       : options_(options), context_(context), clock_(result_.stages) {}
 
   PipelineResult operator()(const std::vector<std::filesystem::path>& paths, const InitialPoses& initial_poses) {
+    if (!options_.reference.empty()) asked_reference_ = find_scan(paths, options_.reference);
     clock_.begin("read and sample");
     read(paths);
     clock_.begin("prepare");
@@ -63,7 +65,7 @@ class Run {
 
   void build_graph() {
     result_.graph = compare_scans(scans_, T_init_, options_, context_);
-    result_.reference = options_.reference.empty() ? result_.graph.reference : find_scan(sampled_, options_.reference);
+    result_.reference = asked_reference_.value_or(result_.graph.reference);
     result_.graph.reference = result_.reference;
   }
 
@@ -204,6 +206,7 @@ class Run {
   PipelineResult result_;
   StageClock clock_;
   std::vector<SampledScan> sampled_;
+  std::optional<std::size_t> asked_reference_;
   Resolutions resolutions_;
   std::vector<PreparedScan> scans_;
   std::vector<Eigen::Isometry3d> T_init_;            // common frame of the initial poses <- local frame

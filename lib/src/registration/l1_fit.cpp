@@ -1,12 +1,12 @@
 #include "tcm_icp/registration/l1_fit.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <string>
 #include <vector>
 
+#include "determined_directions.hpp"
 #include "tcm_icp/core/error.hpp"
 #include "tcm_icp/core/random.hpp"
 #include "tcm_icp/core/statistics.hpp"
@@ -47,16 +47,6 @@ Rows weighted_rows(const Eigen::Ref<const Eigen::MatrixXd>& A, const Eigen::Ref<
 Eigen::VectorXd column_scales(const Eigen::MatrixXd& A) {
   Eigen::VectorXd scales = A.colwise().stableNorm().transpose() / std::sqrt(static_cast<double>(A.rows()));
   return scales.unaryExpr([](double scale) { return scale > 0 ? scale : 1.0; });
-}
-
-// Columns: an orthonormal basis of the directions of x that the rows determine; the identity where they determine all.
-Eigen::MatrixXd determined_directions(const Eigen::MatrixXd& scaled_A, double tolerance) {
-  const Eigen::MatrixXd gram = scaled_A.transpose() * scaled_A;
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(gram);
-  const double threshold = tolerance * tolerance * eigen.eigenvalues().maxCoeff();
-  const Eigen::Index rank = (eigen.eigenvalues().array() > threshold).count();
-  if (rank == gram.cols()) return Eigen::MatrixXd::Identity(rank, rank);
-  return eigen.eigenvectors().rightCols(rank);  // eigenvalues ascend
 }
 
 double median_nonzero_magnitude(const Eigen::VectorXd& d) {

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <string>
 
+#include "determined_directions.hpp"
 #include "lp_figures.hpp"
 #include "tcm_icp/core/error.hpp"
 #include "tcm_icp/core/rigid_transform.hpp"
@@ -91,12 +92,15 @@ Termination lp_point_to_plane_step(const std::vector<Correspondence>& matches, c
     A.row(i).tail<3>() = m.normal.transpose();
     d[i] = -m.normal.dot(m.source - m.target);
   }
-  const L1FitResult fit = fit_l1(A, d, options);
+  // Where all normals are parallel but for rounding, fit_l1 would scale the rounding up to a determined column, and the
+  // scan would slide away without end.
+  const Eigen::MatrixXd basis = determined_directions(A, options.rank_tolerance);
+  const L1FitResult fit = fit_l1(A * basis, d, options);
   figures += figures_of(fit);
   if (!fit.optimal()) return termination_of(fit.status);
-  Twist twist = fit.x;
+  Twist twist = basis * fit.x;
+  step_m = twist.norm();
   twist.head<3>() /= radius;
-  step_m = fit.x.norm();
   T_target_source = isometry_about(centre, twist) * T_target_source;
   // Thousands of products drift off SO(3) by rounding.
   T_target_source.linear() = project_onto_so3(T_target_source.linear());

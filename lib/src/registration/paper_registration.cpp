@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
+#include "determined_directions.hpp"
 #include "lp_figures.hpp"
 #include "tcm_icp/core/error.hpp"
 #include "tcm_icp/core/rigid_transform.hpp"
@@ -16,6 +18,12 @@ Eigen::Vector3d centroid(const Points& points) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (const auto& p : points) sum += p;
   return sum / static_cast<double>(points.size());
+}
+
+double rms_distance(const Points& points, const Eigen::Vector3d& centre) {
+  double squared = 0;
+  for (const auto& p : points) squared += (p - centre).squaredNorm();
+  return std::sqrt(squared / static_cast<double>(points.size()));
 }
 
 }  // namespace
@@ -39,19 +47,22 @@ Termination paper_simplex_step(const Points& source, const Points& target, const
   if (source.size() < 4) return Termination::kTooFewCorrespondences;
   const auto n = static_cast<Eigen::Index>(source.size());
   const Eigen::Vector3d centre = centroid(source);  // about the centroid R and T hardly depend on each other
+  const double radius = std::max(rms_distance(source, centre), std::numeric_limits<double>::min());
   Eigen::MatrixXd A(n, 4);
   for (Eigen::Index i = 0; i < n; ++i) {
-    A.row(i) << (source[static_cast<std::size_t>(i)] - centre).transpose(), 1;
+    A.row(i) << (source[static_cast<std::size_t>(i)] - centre).transpose() / radius, 1;
   }
+  // A flat scan says nothing of one column of R: it stays 0 for the projection to fill, instead of blown-up rounding.
+  const Eigen::MatrixXd basis = determined_directions(A, options.rank_tolerance);
   Eigen::Matrix3d linear;
   Eigen::VectorXd d(n);
   double objective = 0;
   for (int axis = 0; axis < 3; ++axis) {
     for (Eigen::Index i = 0; i < n; ++i) d[i] = target[static_cast<std::size_t>(i)][axis];
-    const L1FitResult fit = fit_l1(A, d, options);
+    const L1FitResult fit = fit_l1(A * basis, d, options);
     figures += figures_of(fit);
     if (!fit.optimal()) return termination_of(fit.status);
-    linear.row(axis) = fit.x.head<3>().transpose();
+    linear.row(axis) = (basis * fit.x).head<3>().transpose() / radius;
     objective += fit.objective;
   }
   figures.objective = objective;
@@ -76,10 +87,7 @@ RegistrationResult register_paper(const Points& source, const Points& target, co
     result.termination = Termination::kTooFewCorrespondences;
     return result;
   }
-  double radius = 0;
-  const Eigen::Vector3d centre = centroid(source);
-  for (const auto& p : source) radius += (p - centre).squaredNorm();
-  radius = std::sqrt(radius / static_cast<double>(source.size()));
+  const double radius = rms_distance(source, centroid(source));
   Points matched(source.size());
   std::vector<double> distances(source.size());
   for (int i = 0; i < options.max_iterations; ++i) {

@@ -1,0 +1,94 @@
+// Options of `tcm-icp register`: what is refused, what is told, and what an option file does.
+
+#include "cli_test.hpp"
+
+namespace tcm_icp::test {
+namespace {
+
+class Usage : public CliTest {
+ protected:
+  Usage() {
+    folder_.write("a.xyz", "0 0 0\n1 0 0\n0 1 0\n");
+    folder_.write("b.xyz", "0 0 0\n1 0 0\n0 1 0\n");
+  }
+  void expect_bad(const Words& options, const Words& parts) const {
+    expect_refusal(Words{"register", "a.xyz", "b.xyz", "--out", "result"} + options, 1, parts);
+  }
+  std::string config(const Words& options) const {
+    const RunResult result = run(Words{"register", "--print-config"} + options);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(result.err, "");
+    return result.out;
+  }
+};
+
+TEST_F(Usage, RefusesUnknownCommandsAndOptions) {
+  expect_refusal({"registr"}, 1, {"unknown command 'registr'", "--help"});
+  expect_bad({"--bogus"}, {"'--bogus'", "register --help"});
+  expect_bad({"--prof", "paper"}, {"'--prof'"});
+  expect_bad({"--seed"}, {"--seed"});
+  expect_refusal({"register", "a.xyz", "b.xyz"}, 1, {"--out DIR is missing"});
+}
+
+TEST_F(Usage, RefusesUnknownNamesAndTellsTheKnown) {
+  expect_bad({"--profile", "best"}, {"--profile 'best'", "robust, paper"});
+  expect_bad({"--solver", "soplex"}, {"--solver 'soplex'", "glpk, cgal"});
+  expect_bad({"--outliers", "some"}, {"--outliers 'some'", "kmeans"});
+  expect_bad({"--refinement", "icp"}, {"--refinement 'icp'", "descent"});
+}
+
+TEST_F(Usage, RefusesNumbersOutOfBounds) {
+  expect_bad({"--threads", "-1"}, {"threads", "-1"});
+  expect_bad({"--threads", "two"}, {"threads", "two"});
+  expect_bad({"--seed", "-1"}, {"--seed", "-1"});
+  expect_bad({"--sampling.fine-voxels=-3"}, {"sampling.fine-voxels", "-3"});
+  expect_bad({"--sampling.coarse-voxels", "5"}, {"coarse_voxels", "5", "100"});
+  expect_bad({"--lp.max-pivots", "0"}, {"max_pivots", "0"});
+  expect_bad({"--lp.max-seconds", "nan"}, {"max_seconds"});
+  expect_bad({"--outliers.radius", "-0.5"}, {"radius", "-0.5"});
+  expect_bad({"--graph-threshold", "-1"}, {"graph_threshold", "-1"});
+  expect_bad({"--annealing.final-temperature", "0"}, {"final_temperature", "0"});
+}
+
+TEST_F(Usage, HelpGoesToStdoutAndNamesEveryOption) {
+  const RunResult help = run({"register", "--help"});
+  EXPECT_EQ(help.exit_code, 0);
+  EXPECT_EQ(help.err, "");
+  for (const char* option : {"--out", "--force", "--config", "--print-config", "--quiet", "--verbose", "--help"}) {
+    EXPECT_NE(help.out.find(option), std::string::npos) << option;
+  }
+  std::istringstream lines(config({}));
+  std::size_t num_options = 0;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.front() == '#') continue;
+    const std::string option = "--" + line.substr(0, line.find(' '));
+    EXPECT_NE(help.out.find(option), std::string::npos) << option;
+    ++num_options;
+  }
+  EXPECT_GT(num_options, 20U);
+}
+
+TEST_F(Usage, AWholeHelpThatCannotBeWrittenIsAnError) {
+  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "this system has no /dev/full";
+  RunSettings full;
+  full.stdout_file = "/dev/full";
+  expect_refusal({"register", "--help"}, 4, {"standard output", "cannot be written"}, full);
+}
+
+TEST_F(Usage, PrintedOptionsGiveTheSameOptions) {
+  const Words options{"--seed", "7", "--solver", "cgal", "--outliers.threshold", "0.1", "--profile", "paper"};
+  const std::string printed = config(options);
+  EXPECT_NE(printed, config({}));
+  folder_.write("options.ini", printed);
+  EXPECT_EQ(config({"--config", "options.ini"}), printed);
+}
+
+TEST_F(Usage, CommandLineWinsOverTheFile) {
+  folder_.write("options.ini", "seed = 7\nsolver = cgal\n");
+  const std::string printed = config({"--config", "options.ini", "--seed", "8"});
+  EXPECT_NE(printed.find("seed = 8\n"), std::string::npos) << printed;
+  EXPECT_NE(printed.find("solver = cgal\n"), std::string::npos) << printed;
+}
+
+}  // namespace
+}  // namespace tcm_icp::test

@@ -1,0 +1,65 @@
+#include "pipeline/verdict.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <string>
+
+namespace tcm_icp {
+namespace {
+
+AlignmentEvidence good() {
+  AlignmentEvidence evidence;
+  evidence.num_points = 1500;
+  evidence.overlap = 0.6;
+  evidence.inlier_share = 0.6;
+  evidence.left_after_slide = {0.4, 0.3, 0.2, 0.1, 0.1, 0.1};
+  evidence.runner_up = 0.3;
+  return evidence;
+}
+
+// The reason's first word, or "accepted".
+std::string outcome(AlignmentEvidence evidence) {
+  const Verdict verdict = judge(evidence);
+  EXPECT_FALSE(verdict.reason.empty());
+  return verdict.accepted ? "accepted" : verdict.reason.substr(0, verdict.reason.find(' '));
+}
+
+TEST(Judge, AcceptsGoodEvidenceWithAndWithoutASearchForOtherPoses) {
+  EXPECT_EQ(outcome(good()), "accepted");
+  AlignmentEvidence not_looked_for = good();
+  not_looked_for.runner_up = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(outcome(not_looked_for), "accepted");
+}
+
+TEST(Judge, EachKindOfEvidenceCanRejectAlone) {
+  AlignmentEvidence e = good();
+  e.overlap = 0.05;
+  EXPECT_EQ(outcome(e), "only") << "three in a hundred agree";
+  e = good();
+  e.num_points = 60;
+  EXPECT_EQ(outcome(e), "only") << "22 points are too few to tell";
+  e = good();
+  e.inlier_share = 0.15;
+  EXPECT_EQ(outcome(e), "only") << "neighbours at random agree as often";
+  e = good();
+  e.left_after_slide[0] = 0.9;
+  EXPECT_EQ(outcome(e), "ambiguous:") << "it slides";
+  e = good();
+  e.runner_up = 0.95;
+  EXPECT_EQ(outcome(e), "ambiguous:") << "another pose is as good";
+  EXPECT_FALSE(judge({}).accepted) << "no evidence";
+}
+
+TEST(VerificationAt, AllLengthsFollowTheResolution) {
+  const VerificationOptions fine = verification_at(0.1), coarse = verification_at(100);
+  EXPECT_NO_THROW(fine.validate());
+  EXPECT_DOUBLE_EQ(coarse.gate_m, 1000 * fine.gate_m);
+  EXPECT_DOUBLE_EQ(coarse.tolerance_m, 1000 * fine.tolerance_m);
+  EXPECT_DOUBLE_EQ(coarse.slide_m, 1000 * fine.slide_m);
+  EXPECT_LT(fine.tolerance_m, fine.gate_m);
+  EXPECT_LT(fine.gate_m, fine.slide_m);
+}
+
+}  // namespace
+}  // namespace tcm_icp
