@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <iomanip>
 #include <iostream>
-#include <thread>
 
 #include "command.hpp"
 #include "console.hpp"
 #include "register_options.hpp"
+#include "run_setup.hpp"
 #include "tcm_icp/core/error.hpp"
-#include "tcm_icp/io/pose_io.hpp"
 #include "tcm_icp/pipeline/pipeline.hpp"
 #include "tcm_icp/pipeline/result_writer.hpp"
 #include "version.hpp"
@@ -17,27 +16,12 @@
 namespace tcm_icp::app {
 namespace {
 
-std::vector<std::filesystem::path> paths_of(const RegisterOptions& o) { return {o.scans.begin(), o.scans.end()}; }
-
 void check_usage(const RegisterOptions& o) {
   if (o.scans.size() < 2) {
     throw InvalidOptions("registration needs at least two scans, not " + std::to_string(o.scans.size()) +
                          "; name the files: tcm-icp register SCAN... --out DIR");
   }
   if (o.out.empty()) throw InvalidOptions("--out DIR is missing: where is the result to go?");
-}
-
-InitialPoses read_guess(const RegisterOptions& o, const std::vector<std::filesystem::path>& paths) {
-  if (o.initial_poses.empty()) return InitialPoses(paths.size());
-  std::vector<std::string> files;
-  for (const auto& p : paths) files.push_back(p.filename().string());
-  return read_initial_poses(o.initial_poses, files);
-}
-
-std::string joined(const Arguments& arguments) {
-  std::string line = "tcm-icp register";
-  for (const auto& a : arguments) line += " " + a;
-  return line;
 }
 
 void print_table(const PipelineResult& result, std::ostream& out) {
@@ -85,14 +69,11 @@ int cmd_register(const Arguments& arguments) {
 
   catch_interrupts();
   Console console(o.quiet, o.verbose);
-  RunContext context;
-  context.seed = o.seed;
-  context.num_threads = o.threads > 0 ? o.threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  context.on_progress = [&](const Progress& p) { return console.progress(p); };
-  context.log = [&](LogLevel level, std::string_view message) { console.log(level, message); };
+  const RunContext context = run_context(o, console);
 
   PipelineResult result = Pipeline(o.pipeline).run(paths, guess, context);
-  write_result(o.out, o.force, paths, result, o.pipeline, context, {kVersion, joined(arguments), o.initial_poses});
+  write_result(o.out, o.force, paths, result, o.pipeline, context,
+               {kVersion, command_line("register", arguments), o.initial_poses});
   console.finish();
   if (!o.quiet) print_table(result, std::cout);
   return result.all_registered() ? kSuccess : kSomeUnregistered;

@@ -76,18 +76,17 @@ auto* value(T& target) {
   return bind_option(&target);
 }
 
-// Options that may stand in a file, too.
-po::options_description configurable(RegisterOptions& o, Choices& c) {
-  PipelineOptions& p = o.pipeline;
-  po::options_description main("Method");
-  main.add_options()("profile", value(c.profile), "robust: past the paper, verified; paper: to the letter")(
+// What decides how scans are sampled and compared, before any is placed.
+void add_comparison_options(ScanSetOptions& o, Choices& c, po::options_description& to) {
+  to.add_options()("profile", value(c.profile), "robust: past the paper, verified; paper: to the letter")(
       "init", value(o.initial_poses), "file of initial poses, as poses.json or truth.json has them")(
-      "reference", value(p.reference), "file of the reference scan; empty: the correspondence graph chooses")(
-      "graph-threshold", value(p.graph_threshold),
-      "correspondence measure below which two scans are connected; 0: from the data")(
-      "solver", value(c.solver), "simplex solver: glpk or cgal (exact, slow, for comparison)")(
-      "seed", value(o.seed), "seed of all random numbers")(
+      "graph-threshold", value(o.pipeline.graph_threshold),
+      "correspondence measure below which two scans are connected; 0: from the data")("seed", value(o.seed),
+                                                                                      "seed of all random numbers")(
       "threads", value(o.threads), "threads; 0: all of the machine; the result is the same for any number");
+}
+
+po::options_description outlier_options(PipelineOptions& p, Choices& c) {
   po::options_description outliers("Outlier removal; lengths in the unit of the scans, 0: from the data");
   outliers.add_options()("outliers", value(c.outliers), "kmeans, distance, lof or none")(
       "outliers.clusters", value(p.outliers.kmeans_clusters), "kmeans: number of clusters k")(
@@ -99,6 +98,10 @@ po::options_description configurable(RegisterOptions& o, Choices& c) {
       "distance: outliers are this many average spacings away")(
       "outliers.lof-threshold", value(p.outliers.lof_threshold),
       "lof: outliers are this much sparser than their neighbours");
+  return outliers;
+}
+
+po::options_description sampling_options(PipelineOptions& p) {
   po::options_description sampling("Sampling");
   sampling.add_options()("sampling.working-points", value(p.sampling.max_working_points),
                          "most points of a scan kept in memory")(
@@ -108,6 +111,17 @@ po::options_description configurable(RegisterOptions& o, Choices& c) {
       "voxels of a scan at the resolution they are adjusted with")("sampling.max-surface-variation",
                                                                    value(p.sampling.max_surface_variation),
                                                                    "0..0.333; rougher places do not count as surfaces");
+  return sampling;
+}
+
+// Options that may stand in a file, too.
+po::options_description configurable(RegisterOptions& o, Choices& c) {
+  PipelineOptions& p = o.pipeline;
+  po::options_description main("Method");
+  add_comparison_options(o, c, main);
+  main.add_options()("reference", value(p.reference),
+                     "file of the reference scan; empty: the correspondence graph chooses")(
+      "solver", value(c.solver), "simplex solver: glpk or cgal (exact, slow, for comparison)");
   po::options_description placement("Simplex, refinement, adjustment");
   placement.add_options()("lp.max-pivots", value(p.lp.lp.max_pivots), "most simplex pivots of one program")(
       "lp.max-seconds", value(p.lp.lp.max_seconds), "[s] longest time of one program")(
@@ -123,7 +137,7 @@ po::options_description configurable(RegisterOptions& o, Choices& c) {
       "annealing.final-temperature", value(p.refinement.final_temperature),
       "the same, at the end; cooling is geometric")("adjustment.steps", value(p.placement.adjustment_steps),
                                                     "joint steps of all poses at the fine resolution; 0: none");
-  main.add(outliers).add(sampling).add(placement);
+  main.add(outlier_options(p, c)).add(sampling_options(p)).add(placement);
   return main;
 }
 
@@ -137,6 +151,26 @@ po::options_description command_line_only(RegisterOptions& o, std::string& confi
       "verbose,v", po::bool_switch(&o.verbose), "say what happens to each scan")("help,h", po::bool_switch(&o.help),
                                                                                  "this text");
   return general;
+}
+
+po::options_description inspect_description(InspectOptions& o, Choices& c) {
+  po::options_description all("Options");
+  all.add_options()("json", po::bool_switch(&o.json), "write JSON in place of the tables");
+  add_comparison_options(o, c, all);
+  all.add_options()("quiet,q", po::bool_switch(&o.quiet), "no progress; errors and warnings only")(
+      "help,h", po::bool_switch(&o.help), "this text");
+  all.add(outlier_options(o.pipeline, c)).add(sampling_options(o.pipeline));
+  return all;
+}
+
+// No guessing of shortened names: a typo must not become another option.
+constexpr int kStyle = po::command_line_style::unix_style & ~po::command_line_style::allow_guessing;
+
+// Once the text has become options.
+void finish(ScanSetOptions& o, const Choices& choices) {
+  choices.apply(o.pipeline);
+  if (o.threads < 0) throw InvalidOptions("--threads must be at least 0, not " + std::to_string(o.threads));
+  o.pipeline.validate();
 }
 
 // The library takes -1 for the largest whole number there is.
@@ -182,15 +216,36 @@ RegisterOptions parse_register_options(const Arguments& arguments) {
   positional.add("scan", -1);
 
   po::variables_map map;
-  // No guessing of shortened names: a typo must not become another option.
-  const auto style = po::command_line_style::unix_style & ~po::command_line_style::allow_guessing;
-  store_checked(po::command_line_parser(arguments).options(all).positional(positional).style(style).run(), map);
+  store_checked(po::command_line_parser(arguments).options(all).positional(positional).style(kStyle).run(), map);
   if (map.count("config") != 0) read_config(map["config"].as<std::string>(), file_options, map);
   po::notify(map);
-  choices.apply(o.pipeline);
-  if (o.threads < 0) throw InvalidOptions("--threads must be at least 0, not " + std::to_string(o.threads));
-  o.pipeline.validate();
+  finish(o, choices);
   return o;
+}
+
+InspectOptions parse_inspect_options(const Arguments& arguments) {
+  InspectOptions o;
+  Choices choices(o.pipeline);
+  po::options_description all = inspect_description(o, choices);
+  all.add_options()("scan", po::value(&o.scans));
+  po::positional_options_description positional;
+  positional.add("scan", -1);
+  po::variables_map map;
+  store_checked(po::command_line_parser(arguments).options(all).positional(positional).style(kStyle).run(), map);
+  po::notify(map);
+  finish(o, choices);
+  return o;
+}
+
+void print_inspect_help(std::ostream& out) {
+  InspectOptions o;
+  Choices choices(o.pipeline);
+  out << "Usage: tcm-icp inspect SCAN... [--json] [--init POSES.json] [OPTIONS]\n\n"
+         "What is known of scans before they are registered: counts, extents, spacing and noise; of two or more also "
+         "the\n"
+         "TCM of each pair and the correspondence graph with the reference scan it chooses, at the initial poses.\n\n"
+      << inspect_description(o, choices)
+      << "\nExample: tcm-icp inspect datasets/town/*.ply --init datasets/town/initial_poses.json\n";
 }
 
 void print_register_help(std::ostream& out) {

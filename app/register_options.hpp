@@ -1,5 +1,5 @@
 #pragma once
-// The options of `tcm-icp register`: bound to the library's structs, whose defaults they show.
+// The options of `tcm-icp register` and `tcm-icp inspect`: bound to the library's structs, whose defaults they show.
 
 #include <boost/program_options/options_description.hpp>
 #include <boost/program_options/variables_map.hpp>
@@ -13,18 +13,26 @@
 
 namespace tcm_icp::app {
 
-struct RegisterOptions {
+/// What every command that reads a set of scans asks for.
+struct ScanSetOptions {
   PipelineOptions pipeline;
   std::vector<std::string> scans;
-  std::string out;
   std::string initial_poses;
   std::uint64_t seed = 42;
   int threads = 0;  ///< 0: as many as the machine has
-  bool force = false;
   bool quiet = false;
   bool verbose = false;
   bool help = false;
+};
+
+struct RegisterOptions : ScanSetOptions {
+  std::string out;
+  bool force = false;
   bool print_config = false;
+};
+
+struct InspectOptions : ScanSetOptions {
+  bool json = false;
 };
 
 /// Command line first, then the file of --config: what the command line says wins.
@@ -32,6 +40,11 @@ struct RegisterOptions {
 RegisterOptions parse_register_options(const Arguments& arguments);
 
 void print_register_help(std::ostream& out);
+
+/// @throws InvalidOptions, boost::program_options::error
+InspectOptions parse_inspect_options(const Arguments& arguments);
+
+void print_inspect_help(std::ostream& out);
 
 /// Every option with its effective value, in the form --config reads.
 void print_register_config(const RegisterOptions& options, std::ostream& out);

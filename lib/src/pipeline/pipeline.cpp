@@ -2,51 +2,21 @@
 
 #include <algorithm>
 #include <optional>
-#include <set>
 #include <string>
 
 #include "adjustment.hpp"
 #include "link_verification.hpp"
 #include "merged_cloud.hpp"
 #include "placement.hpp"
-#include "prepared_scan.hpp"
-#include "scan_sampling.hpp"
+#include "scan_set.hpp"
 #include "stage_clock.hpp"
 #include "tcm_icp/core/error.hpp"
 #include "tcm_icp/core/parallel.hpp"
-#include "tcm_icp/graph/correspondence_measure.hpp"
-#include "tcm_icp/io/scan_reader.hpp"
 #include "tcm_icp/tcm/merge_order.hpp"
 #include "verdict.hpp"
 
 namespace tcm_icp {
 namespace {
-
-// Least share of a scan's points near another for the pair to be a link of the robust graph.
-constexpr double kMinLinkOverlap = 0.1;
-
-void check_paths(const std::vector<std::filesystem::path>& paths, const InitialPoses& initial_poses) {
-  if (paths.size() < 2) {
-    throw InvalidOptions("registration needs at least two scans, not " + std::to_string(paths.size()) +
-                         "; name the files of all scans");
-  }
-  if (initial_poses.size() != paths.size()) {
-    throw InvalidOptions(std::to_string(initial_poses.size()) + " initial poses for " + std::to_string(paths.size()) +
-                         " scans");
-  }
-  std::set<std::filesystem::path> places;
-  std::set<std::string> names;
-  for (const auto& path : paths) {
-    std::error_code ignored;
-    const auto canonical = std::filesystem::weakly_canonical(path, ignored);
-    if (!places.insert(canonical.empty() ? path : canonical).second) {
-      throw InvalidInput(path.string() + ": named twice; name each scan once");
-    }
-    if (!names.insert(path.filename().string()).second) {
-      throw InvalidInput(path.string() + ": another scan has the same file name, and results go by it; rename one");
-    }
-  }
-}
 
 std::size_t find_scan(const std::vector<std::filesystem::path>& paths, const std::string& name) {
   for (std::size_t i = 0; i < paths.size(); ++i) {
@@ -63,9 +33,9 @@ class Run {
   PipelineResult operator()(const std::vector<std::filesystem::path>& paths, const InitialPoses& initial_poses) {
     if (!options_.reference.empty()) asked_reference_ = find_scan(paths, options_.reference);
     clock_.begin("read and sample");
-    read_scans(paths);
+    read(paths);
     clock_.begin("prepare");
-    prepare_scans(initial_poses);
+    prepare(initial_poses);
     clock_.begin("graph");
     build_graph();
     clock_.begin("merge");
@@ -80,81 +50,23 @@ class Run {
  private:
   bool paper() const { return options_.profile == Profile::kPaper; }
 
-  void read_scans(const std::vector<std::filesystem::path>& paths) {
-    // All headers first: the last file's absence should not cost the reading of all others.
-    for (const auto& path : paths) const ScanReader opened(path, ReadAttributes::kNo);
-    sampled_.resize(paths.size());
-    const auto batch = static_cast<std::size_t>(context_.num_threads);
-    for (std::size_t first = 0; first < paths.size(); first += batch) {
-      context_.report("reading", first, paths.size());
-      const std::size_t count = std::min(batch, paths.size() - first);
-      parallel_for(context_.num_threads, count, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = first + begin; i < first + end; ++i) {
-          sampled_[i] = sample_scan(paths[i], options_, context_.seed, 1);
-        }
-      });
-    }
-    for (const auto& s : sampled_) {
-      result_.scans.push_back({s.scan.file, s.scan.num_raw_points, s.scan.num_dropped_points, s.scan.cloud.size(),
-                               s.scan.voxel_size_m, s.scan.spacing_m, s.scan.noise_m, s.scan.extent_m, s.outliers,
-                               s.scan.origin});
-    }
+  void read(const std::vector<std::filesystem::path>& paths) {
+    sampled_ = read_scans(paths, options_, context_);
+    for (const auto& s : sampled_) result_.scans.push_back(summarize(s));
   }
 
-  void prepare_scans(const InitialPoses& initial_poses) {
-    context_.report("preparing", 0, sampled_.size());
+  void prepare(const InitialPoses& initial_poses) {
     resolutions_ = choose_resolutions(sampled_, options_.sampling, context_.num_threads);
     result_.coarse_voxel_m = resolutions_.coarse_m;
     result_.fine_voxel_m = resolutions_.fine_m;
-    std::vector<std::optional<PreparedScan>> prepared(sampled_.size());
-    parallel_for(context_.num_threads, sampled_.size(), [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) {
-        prepared[i] = prepare_scan(sampled_[i], resolutions_, options_.placement, context_.seed);
-        sampled_[i].scan.cloud = Cloud();  // the samples stand for it from here on
-        sampled_[i].surface_normals = Points();
-      }
-    });
-    for (std::size_t i = 0; i < sampled_.size(); ++i) {
-      scans_.push_back(std::move(*prepared[i]));
-      T_init_.push_back(initial_poses[i].value_or(Eigen::Isometry3d::Identity()) *
-                        Eigen::Translation3d(sampled_[i].scan.origin));
-    }
+    T_init_ = initial_local_poses(initial_poses, sampled_);
+    scans_ = prepare_scans(sampled_, resolutions_, options_.placement, context_);
   }
 
-  // correspondence() for every pair in the frames of the initial poses, and the reference it picks.
   void build_graph() {
-    const auto n = static_cast<Eigen::Index>(scans_.size());
-    Eigen::MatrixXd measure = Eigen::MatrixXd::Zero(n, n);
-    for (Eigen::Index i = 0; i < n; ++i) {
-      context_.report("comparing", static_cast<std::size_t>(i), scans_.size());
-      parallel_for(context_.num_threads, static_cast<std::size_t>(n - i - 1), [&](std::size_t begin, std::size_t end) {
-        for (std::size_t k = begin; k < end; ++k) {
-          const Eigen::Index j = i + 1 + static_cast<Eigen::Index>(k);
-          measure(i, j) = measure(j, i) = correspondence(static_cast<std::size_t>(i), static_cast<std::size_t>(j));
-        }
-      });
-    }
-    std::optional<double> threshold;
-    if (options_.graph_threshold > 0) {
-      threshold = options_.graph_threshold;
-    } else if (!paper()) {
-      threshold = 1 - kMinLinkOverlap;
-    }
-    result_.graph = build_correspondence_graph(measure, threshold);
+    result_.graph = compare_scans(scans_, T_init_, options_, context_);
     result_.reference = asked_reference_.value_or(result_.graph.reference);
     result_.graph.reference = result_.reference;
-  }
-
-  double correspondence(std::size_t i, std::size_t j) const {
-    const PyramidLevel& a = scans_[i].pyramid.level(1);
-    const PyramidLevel& b = scans_[j].pyramid.level(1);
-    const Eigen::Isometry3d T_i_j = T_init_[i].inverse() * T_init_[j];
-    if (paper()) {
-      const Points moved = transformed({b.cloud.points, {}}, T_i_j).points;
-      const NeighborIndex index(moved);
-      return correspondence_distance({a.cloud.points, a.index}, {moved, index});
-    }
-    return 1 - overlap({a.cloud.points, a.index}, {b.cloud.points, b.index}, T_i_j, 2 * a.voxel_size_m);
   }
 
   void merge_scans() {
@@ -329,6 +241,10 @@ Pipeline::Pipeline(PipelineOptions options) : options_(std::move(options)) { opt
 
 PipelineResult Pipeline::run(const std::vector<std::filesystem::path>& paths, const InitialPoses& initial_poses,
                              const RunContext& context) const {
+  if (paths.size() < 2) {
+    throw InvalidOptions("registration needs at least two scans, not " + std::to_string(paths.size()) +
+                         "; name the files of all scans");
+  }
   check_paths(paths, initial_poses);
   return Run(options_, context)(paths, initial_poses);
 }

@@ -55,6 +55,14 @@ class Placer {
     return best;
   }
 
+  /// Fits from the best shifts of the initial guess, too.
+  void try_shifts(const Eigen::Isometry3d& T_init, Candidate& best) {
+    for (const auto& T : other_minima(scan_.coarse_sample, scan_.held_out_sample, merged_, T_init)) {
+      const Candidate candidate = fit_and_verify(T, kGateLadder[0]);
+      if (candidate.found && (!best.found || better(candidate, best))) best = candidate;
+    }
+  }
+
   /// Looks for other poses that fit as well; the one with the largest consensus wins. Repeated structure (bays of a
   /// hall, rows of trees) shows here and nowhere else: each of its fits looks right by itself.
   void explore(Candidate& best) {
@@ -176,6 +184,9 @@ Eigen::Isometry3d place_scan(const PreparedScan& scan, const ScanPyramid& merged
   Candidate best = placer.fit_from(T_init);
   if (!best.verdict.accepted && options.placement.search_steps > 0) {
     record.searched = true;
+    placer.try_shifts(T_init, best);
+  }
+  if (!best.verdict.accepted && options.placement.search_steps > 0) {
     const Eigen::Isometry3d T =
         search_by_annealing(scan.coarse_sample, scan.held_out_sample, merged, T_init, options, rng);
     const Candidate found = placer.fit_from(T);

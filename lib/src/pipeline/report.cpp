@@ -1,15 +1,8 @@
-#include <cmath>
-#include <nlohmann/json.hpp>
-
+#include "report_parts.hpp"
 #include "tcm_icp/pipeline/result_writer.hpp"
 
 namespace tcm_icp {
 namespace {
-
-using Json = nlohmann::ordered_json;
-
-// JSON knows no NaN.
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 Json to_json(const LpFigures& lp) {
   return {{"programs", lp.num_programs},
@@ -68,61 +61,6 @@ Json to_json(const MergeRecord& m, const PipelineResult& result) {
   return j;
 }
 
-const char* name_of(OutlierMethod method) {
-  switch (method) {
-    case OutlierMethod::kKMeans:
-      return "kmeans";
-    case OutlierMethod::kDistance:
-      return "distance";
-    case OutlierMethod::kLof:
-      return "lof";
-    case OutlierMethod::kNone:
-      return "none";
-  }
-  return "unknown";
-}
-
-Json to_json(const ScanSummary& s) {
-  const OutlierSummary& o = s.outliers.summary();
-  return {{"file", s.file},
-          {"points", s.num_points},
-          {"dropped_points", s.num_dropped_points},
-          {"working_points", s.num_working_points},
-          {"working_voxel_m", s.voxel_size_m},
-          {"spacing_m", s.spacing_m},
-          {"noise_m", s.noise_m},
-          {"extent_m", s.extent_m},
-          {"outliers",
-           {{"method", name_of(o.method)},
-            {"clusters", o.num_clusters},
-            {"struck_clusters", o.num_struck_clusters},
-            {"radius_m", o.radius_m},
-            {"threshold", o.threshold},
-            {"working_points_removed", o.num_outliers}}}};
-}
-
-Json graph_json(const PipelineResult& result) {
-  const CorrespondenceGraph& g = result.graph;
-  Json measure = Json::array(), edges = Json::array(), degrees = Json::array();
-  for (Eigen::Index i = 0; i < g.measure.rows(); ++i) {
-    Json row = Json::array();
-    for (Eigen::Index j = 0; j < g.measure.cols(); ++j) row.push_back(number(g.measure(i, j)));
-    measure.push_back(row);
-  }
-  for (std::size_t i = 0; i < g.size(); ++i) {
-    degrees.push_back(g.degree(i));
-    for (const std::size_t j : g.adjacency[i]) {
-      if (i < j) edges.push_back({result.scans[i].file, result.scans[j].file});
-    }
-  }
-  return {{"reference", result.scans[result.reference].file},
-          {"threshold", number(g.threshold)},
-          {"threshold_from_data", g.threshold_from_data},
-          {"measure", measure},
-          {"degrees", degrees},
-          {"edges", edges}};
-}
-
 Json options_json(const PipelineOptions& o, const RunContext& context) {
   return {{"profile", o.profile == Profile::kPaper ? "paper" : "robust"},
           {"solver", to_string(o.lp.lp.solver)},
@@ -174,7 +112,7 @@ std::string report_json(const PipelineResult& result, const PipelineOptions& opt
     report["scans"][i]["reason"] = result.poses[i].reason;
     report["scans"][i]["evidence"] = result.evidence[i] ? to_json(*result.evidence[i]) : Json(nullptr);
   }
-  report["graph"] = graph_json(result);
+  report["graph"] = to_json(result.graph, result.reference, result.scans);
   report["merges"] = Json::array();
   for (const auto& m : result.merges) report["merges"].push_back(to_json(m, result));
   report["links"] = Json::array();

@@ -31,7 +31,7 @@ struct PlacementOptions {
   int coarse_points = 1500;    ///< >= 100; points of a scan in its coarse linear programs
   int fine_points = 3000;      ///< >= 100; and in the finer ones
   int held_out_points = 1500;  ///< >= 100; points kept from every fit, for verification
-  int search_steps = 400;      ///< >= 0; annealing steps where the fit from the initial guess fails verification
+  int search_steps = 1500;     ///< >= 0; annealing steps where the fit from the initial guess fails verification
   int adjustment_steps = 10;   ///< >= 0; Gauss-Newton steps over all poses at once, at the fine resolution
   void validate() const;       ///< throws InvalidOptions
 };

@@ -1,0 +1,37 @@
+#include "run_setup.hpp"
+
+#include <algorithm>
+#include <thread>
+
+#include "tcm_icp/io/pose_io.hpp"
+
+namespace tcm_icp::app {
+
+std::vector<std::filesystem::path> paths_of(const ScanSetOptions& options) {
+  return {options.scans.begin(), options.scans.end()};
+}
+
+InitialPoses read_guess(const ScanSetOptions& options, const std::vector<std::filesystem::path>& paths) {
+  if (options.initial_poses.empty()) return InitialPoses(paths.size());
+  std::vector<std::string> files;
+  for (const auto& p : paths) files.push_back(p.filename().string());
+  return read_initial_poses(options.initial_poses, files);
+}
+
+RunContext run_context(const ScanSetOptions& options, Console& console) {
+  RunContext context;
+  context.seed = options.seed;
+  context.num_threads =
+      options.threads > 0 ? options.threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  context.on_progress = [&console](const Progress& p) { return console.progress(p); };
+  context.log = [&console](LogLevel level, std::string_view message) { console.log(level, message); };
+  return context;
+}
+
+std::string command_line(std::string_view command, const Arguments& arguments) {
+  std::string line = "tcm-icp " + std::string(command);
+  for (const auto& a : arguments) line += " " + a;
+  return line;
+}
+
+}  // namespace tcm_icp::app

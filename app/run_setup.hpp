@@ -1,0 +1,27 @@
+#pragma once
+// From options to what the library is called with; common to the commands that read a set of scans.
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "console.hpp"
+#include "register_options.hpp"
+#include "tcm_icp/core/run_context.hpp"
+#include "tcm_icp/pipeline/pipeline.hpp"
+
+namespace tcm_icp::app {
+
+std::vector<std::filesystem::path> paths_of(const ScanSetOptions& options);
+
+/// The initial poses of --init; none where it is not given. @throws InputError
+InitialPoses read_guess(const ScanSetOptions& options, const std::vector<std::filesystem::path>& paths);
+
+/// Reports to the console, which must outlive it.
+RunContext run_context(const ScanSetOptions& options, Console& console);
+
+/// The command line as the user typed it, for the report.
+std::string command_line(std::string_view command, const Arguments& arguments);
+
+}  // namespace tcm_icp::app

@@ -1,0 +1,26 @@
+#pragma once
+// JSON of what both the report of a run and an inspection tell.
+
+#include <Eigen/Core>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "tcm_icp/graph/correspondence_graph.hpp"
+#include "tcm_icp/outliers/outlier_removal.hpp"
+#include "tcm_icp/pipeline/pipeline_result.hpp"
+
+namespace tcm_icp {
+
+using Json = nlohmann::ordered_json;
+
+/// null for NaN and infinity, which JSON does not know.
+Json number(double value);
+
+/// Rows first.
+Json to_json(const Eigen::MatrixXd& matrix);
+
+const char* name_of(OutlierMethod method);
+Json to_json(const ScanSummary& scan);
+Json to_json(const CorrespondenceGraph& graph, std::size_t reference, const std::vector<ScanSummary>& scans);
+
+}  // namespace tcm_icp

@@ -1,0 +1,124 @@
+#include "scan_set.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <set>
+#include <string>
+
+#include "tcm_icp/core/error.hpp"
+#include "tcm_icp/core/parallel.hpp"
+#include "tcm_icp/core/rigid_transform.hpp"
+#include "tcm_icp/graph/correspondence_measure.hpp"
+#include "tcm_icp/io/scan_reader.hpp"
+
+namespace tcm_icp {
+namespace {
+
+double correspondence(const PreparedScan& scan_a, const PreparedScan& scan_b, const Eigen::Isometry3d& T_a_b,
+                      Profile profile) {
+  const PyramidLevel& a = scan_a.pyramid.level(1);
+  const PyramidLevel& b = scan_b.pyramid.level(1);
+  if (profile == Profile::kPaper) {
+    const Points moved = transformed({b.cloud.points, {}}, T_a_b).points;
+    const NeighborIndex index(moved);
+    return correspondence_distance({a.cloud.points, a.index}, {moved, index});
+  }
+  return 1 - overlap({a.cloud.points, a.index}, {b.cloud.points, b.index}, T_a_b, 2 * a.voxel_size_m);
+}
+
+}  // namespace
+
+void check_paths(const std::vector<std::filesystem::path>& paths, const InitialPoses& initial_poses) {
+  if (initial_poses.size() != paths.size()) {
+    throw InvalidOptions(std::to_string(initial_poses.size()) + " initial poses for " + std::to_string(paths.size()) +
+                         " scans");
+  }
+  std::set<std::filesystem::path> places;
+  std::set<std::string> names;
+  for (const auto& path : paths) {
+    std::error_code ignored;
+    const auto canonical = std::filesystem::weakly_canonical(path, ignored);
+    if (!places.insert(canonical.empty() ? path : canonical).second) {
+      throw InvalidInput(path.string() + ": named twice; name each scan once");
+    }
+    if (!names.insert(path.filename().string()).second) {
+      throw InvalidInput(path.string() + ": another scan has the same file name, and results go by it; rename one");
+    }
+  }
+}
+
+std::vector<SampledScan> read_scans(const std::vector<std::filesystem::path>& paths, const PipelineOptions& options,
+                                    const RunContext& context) {
+  // All headers first: the last file's absence should not cost the reading of all others.
+  for (const auto& path : paths) const ScanReader opened(path, ReadAttributes::kNo);
+  std::vector<SampledScan> scans(paths.size());
+  const auto batch = static_cast<std::size_t>(context.num_threads);
+  for (std::size_t first = 0; first < paths.size(); first += batch) {
+    context.report("reading", first, paths.size());
+    const std::size_t count = std::min(batch, paths.size() - first);
+    parallel_for(context.num_threads, count, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = first + begin; i < first + end; ++i) {
+        scans[i] = sample_scan(paths[i], options, context.seed, 1);
+      }
+    });
+  }
+  return scans;
+}
+
+ScanSummary summarize(const SampledScan& s) {
+  return {s.scan.file,      s.scan.num_raw_points, s.scan.num_dropped_points, s.scan.cloud.size(), s.scan.voxel_size_m,
+          s.scan.spacing_m, s.scan.noise_m,        s.scan.extent_m,           s.outliers,          s.scan.origin};
+}
+
+std::vector<PreparedScan> prepare_scans(std::vector<SampledScan>& scans, const Resolutions& resolutions,
+                                        const PlacementOptions& options, const RunContext& context) {
+  context.report("preparing", 0, scans.size());
+  std::vector<std::optional<PreparedScan>> prepared(scans.size());
+  parallel_for(context.num_threads, scans.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      prepared[i] = prepare_scan(scans[i], resolutions, options, context.seed);
+      scans[i].scan.cloud = Cloud();
+      scans[i].surface_normals = Points();
+    }
+  });
+  std::vector<PreparedScan> out;
+  out.reserve(scans.size());
+  for (auto& scan : prepared) out.push_back(std::move(*scan));
+  return out;
+}
+
+std::vector<Eigen::Isometry3d> initial_local_poses(const InitialPoses& initial_poses,
+                                                   const std::vector<SampledScan>& scans) {
+  std::vector<Eigen::Isometry3d> poses;
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    poses.push_back(initial_poses[i].value_or(Eigen::Isometry3d::Identity()) *
+                    Eigen::Translation3d(scans[i].scan.origin));
+  }
+  return poses;
+}
+
+CorrespondenceGraph compare_scans(const std::vector<PreparedScan>& scans,
+                                  const std::vector<Eigen::Isometry3d>& T_common_local, const PipelineOptions& options,
+                                  const RunContext& context) {
+  const std::size_t n = scans.size();
+  Eigen::MatrixXd measure = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(n), static_cast<Eigen::Index>(n));
+  for (std::size_t i = 0; i < n; ++i) {
+    context.report("comparing", i, n);
+    parallel_for(context.num_threads, n - i - 1, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t j = i + 1 + begin; j < i + 1 + end; ++j) {
+        const Eigen::Isometry3d T_i_j = T_common_local[i].inverse() * T_common_local[j];
+        const auto row = static_cast<Eigen::Index>(i), column = static_cast<Eigen::Index>(j);
+        measure(row, column) = measure(column, row) = correspondence(scans[i], scans[j], T_i_j, options.profile);
+      }
+    });
+  }
+  std::optional<double> threshold;
+  if (options.graph_threshold > 0) {
+    threshold = options.graph_threshold;
+  } else if (options.profile == Profile::kRobust) {
+    threshold = 1 - kMinLinkOverlap;
+  }
+  return build_correspondence_graph(measure, threshold);
+}
+
+}  // namespace tcm_icp

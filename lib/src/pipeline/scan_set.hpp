@@ -1,0 +1,46 @@
+#pragma once
+// The scans of one run, from their files to the correspondence graph: what happens before the first scan is placed.
+
+#include <Eigen/Geometry>
+#include <filesystem>
+#include <vector>
+
+#include "prepared_scan.hpp"
+#include "scan_sampling.hpp"
+#include "tcm_icp/core/run_context.hpp"
+#include "tcm_icp/graph/correspondence_graph.hpp"
+#include "tcm_icp/pipeline/pipeline.hpp"
+
+namespace tcm_icp {
+
+/// Least share of a scan's points near another for the pair to be a link of the robust graph.
+constexpr double kMinLinkOverlap = 0.1;
+
+/// @throws InvalidInput    a file named twice, or two files of one name
+/// @throws InvalidOptions  another number of initial poses than of files
+void check_paths(const std::vector<std::filesystem::path>& paths, const InitialPoses& initial_poses);
+
+/// sample_scan() for each file, as many at once as there are threads. Reports "reading".
+/// @throws InputError, InvalidInput, Cancelled
+std::vector<SampledScan> read_scans(const std::vector<std::filesystem::path>& paths, const PipelineOptions& options,
+                                    const RunContext& context);
+
+ScanSummary summarize(const SampledScan& scan);
+
+/// prepare_scan() for each scan. The working clouds are given up: the samples stand for them from here on. Reports
+/// "preparing". @throws Cancelled
+std::vector<PreparedScan> prepare_scans(std::vector<SampledScan>& scans, const Resolutions& resolutions,
+                                        const PlacementOptions& options, const RunContext& context);
+
+/// For each scan T_common_local: initial pose (identity where there is none) times the shift to the raw coordinates.
+std::vector<Eigen::Isometry3d> initial_local_poses(const InitialPoses& initial_poses,
+                                                   const std::vector<SampledScan>& scans);
+
+/// correspondence() for every pair in the frames of the initial poses, and the reference it picks. Reports "comparing".
+/// @param T_common_local  as initial_local_poses() gives them
+/// @throws Cancelled
+CorrespondenceGraph compare_scans(const std::vector<PreparedScan>& scans,
+                                  const std::vector<Eigen::Isometry3d>& T_common_local, const PipelineOptions& options,
+                                  const RunContext& context);
+
+}  // namespace tcm_icp
