@@ -27,7 +27,8 @@ class Console {
   std::chrono::steady_clock::time_point start_;
 };
 
-/// From here on SIGINT, SIGTERM and SIGHUP ask the run to stop at its next progress report; a second one ends it at once.
+/// From here on SIGINT, SIGTERM and SIGHUP ask the run to stop at its next progress report; a second one ends it at
+/// once.
 void catch_interrupts();
 
 }  // namespace tcm_icp::app

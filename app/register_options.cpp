@@ -10,6 +10,7 @@
 #include <ostream>
 #include <utility>
 
+#include "option_binding.hpp"
 #include "tcm_icp/core/error.hpp"
 
 namespace tcm_icp::app {
@@ -72,7 +73,7 @@ struct Choices {
 
 template <typename T>
 auto* value(T& target) {
-  return po::value<T>(&target)->default_value(target);
+  return bind_option(&target);
 }
 
 // What decides how scans are sampled and compared, before any is placed.

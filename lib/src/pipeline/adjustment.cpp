@@ -43,7 +43,7 @@ void find_matches(const std::vector<PreparedScan>& scans, const std::vector<Eige
     for (std::size_t k = begin; k < end; ++k) {
       DirectedLink& link = links[k];
       const Eigen::Isometry3d& T = T_reference_scan[link.target];
-      link.matches = find_correspondences(share_of(scans[link.source].fine_sample, link.target),
+      link.matches = find_correspondences(share_of(scans[link.source].fine_sample, scans[link.target].share),
                                           T.inverse() * T_reference_scan[link.source], scans[link.target].fine, gate);
       for (auto& m : link.matches) {
         m.source = T * m.source;
@@ -102,14 +102,15 @@ class NormalEquations {
     if (row != reference_) rhs_.segment<6>(static_cast<Eigen::Index>(6 * row)) += part;
   }
 
-  /// Zero for the reference and for scans without links. `damping` is added to the diagonal.
+  /// Zero for the reference and for scans without links; empty where the matrix cannot be factorised. `damping` is
+  /// added to the diagonal.
   Eigen::VectorXd solve(double damping) {
     for (int i = 0; i < rhs_.size(); ++i) entries_.emplace_back(i, i, damping);
     Eigen::SparseMatrix<double> matrix(rhs_.size(), rhs_.size());
     matrix.setFromTriplets(entries_.begin(), entries_.end());
     const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors(matrix);
     const Eigen::VectorXd x = factors.solve(rhs_);
-    return factors.info() == Eigen::Success && x.allFinite() ? x : Eigen::VectorXd::Zero(rhs_.size());
+    return factors.info() == Eigen::Success && x.allFinite() ? x : Eigen::VectorXd();
   }
 
  private:
@@ -191,6 +192,10 @@ double adjust_poses(const std::vector<PreparedScan>& scans, const ScanPairs& pai
     }
     // A millionth of the mean curvature: holds still what the points do not determine, and nothing else.
     const Eigen::VectorXd x = equations.solve(1e-6 * trace / static_cast<double>(6 * scans.size()) + 1e-300);
+    if (x.size() == 0) {
+      context.warn("the joint adjustment's equations could not be solved; poses stay as they were merged");
+      return 0;
+    }
     moved_m = std::sqrt(x.squaredNorm() / static_cast<double>(scans.size()));
     for (std::size_t i = 0; i < scans.size(); ++i) {
       const Twist twist = x.segment<6>(static_cast<Eigen::Index>(6 * i));

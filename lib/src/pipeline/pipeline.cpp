@@ -81,13 +81,20 @@ class Run {
     std::vector<int> attempts(n, 0);
     std::vector<std::size_t> tried_at(n, 0);  // size of S, in scans, at the last attempt
     std::size_t num_merged = 1;
+    bool last_round = false;
     while (true) {
       std::vector<MergeCandidate> candidates;
       for (std::size_t j = 0; j < n; ++j) {
         // A scan that failed is tried again once S has grown.
-        if (!placed_[j] && tried_at[j] < num_merged) candidates.push_back({j, {}});
+        if (!placed_[j] && tried_at[j] < num_merged && large_enough(j)) candidates.push_back({j, {}});
       }
-      if (candidates.empty()) break;
+      if (candidates.empty()) {
+        // And at the end once more, since annealing draws other numbers each time; what it wins makes S grow.
+        if (last_round || paper() || num_merged == 1) break;
+        last_round = true;
+        std::fill(tried_at.begin(), tried_at.end(), 0);
+        continue;
+      }
       context_.report("merging", num_merged, n);
       compute_tcm(target, candidates);
       const std::size_t q = next_scan_to_merge(candidates);
@@ -107,10 +114,17 @@ class Run {
         merged.add(scans_[q].pyramid.level(0).cloud, T);
         target = merged.pyramid();
         ++num_merged;
+        last_round = false;
       }
       context_.debug(sampled_[q].scan.file + (record.accepted ? " merged: " : " set aside: ") + record.reason);
       result_.merges.push_back(std::move(record));
     }
+  }
+
+  /// The measures need two points at the least, and so does a fit.
+  bool large_enough(std::size_t scan) const {
+    const bool enough = std::min(scans_[scan].tcm_points.size(), scans_[result_.reference].tcm_points.size()) >= 2;
+    return enough && scans_[result_.reference].pyramid.level(1).cloud.size() >= 2;
   }
 
   void compute_tcm(const ScanPyramid& merged, std::vector<MergeCandidate>& candidates) const {
@@ -137,7 +151,7 @@ class Run {
   // right ones.
   void adjust_and_verify() {
     result_.evidence.assign(scans_.size(), std::nullopt);
-    reasons_.assign(scans_.size(), "");
+    reasons_.assign(scans_.size(), "at the common resolution next to nothing is left of it, or of the reference");
     for (const auto& m : result_.merges) {
       result_.evidence[m.scan] = m.evidence;
       reasons_[m.scan] = m.reason;

@@ -25,6 +25,9 @@ struct PreparedScan {
   Cloud held_out_sample;  ///< surfaces at the coarse voxel; in no fit
   Cloud fine_sample;      ///< surfaces at the fine voxel, for the adjustment
   Points tcm_points;      ///< thinned to the pyramid's second level
+  /// Which of its neighbours' points it is adjusted with: from its file's name, so that the order of the files decides
+  /// nothing.
+  std::size_t share = 0;
 };
 
 /// The median over the scans of the voxel edge at which a scan has the wanted number of voxels.

@@ -9,6 +9,7 @@
 #include "tcm_icp/core/parallel.hpp"
 #include "tcm_icp/core/rigid_transform.hpp"
 #include "tcm_icp/graph/correspondence_measure.hpp"
+#include "tcm_icp/io/scan_reader.hpp"
 
 namespace tcm_icp {
 namespace {
@@ -48,6 +49,8 @@ void check_paths(const std::vector<std::filesystem::path>& paths, const InitialP
 
 std::vector<SampledScan> read_scans(const std::vector<std::filesystem::path>& paths, const PipelineOptions& options,
                                     const RunContext& context) {
+  // All headers first: the last file's absence should not cost the reading of all others.
+  for (const auto& path : paths) const ScanReader opened(path, ReadAttributes::kNo);
   std::vector<SampledScan> scans(paths.size());
   const auto batch = static_cast<std::size_t>(context.num_threads);
   for (std::size_t first = 0; first < paths.size(); first += batch) {

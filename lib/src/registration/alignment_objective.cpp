@@ -15,6 +15,7 @@ constexpr double kMinNormalCosine = 0.7;  // 45 degrees: what faces farther away
 AlignmentObjective::AlignmentObjective(const Cloud& source, const PyramidLevel& target, double scale_m, double gate_m)
     : source_(source), target_(target), squared_scale_m2_(scale_m * scale_m), gate_m_(gate_m) {
   if (source.empty()) throw InvalidInput("an alignment objective needs at least one source point");
+  if (!source.has_normals()) throw InvalidInput("an alignment objective needs a source with normals");
   if (!(scale_m > 0)) throw InvalidOptions("scale_m must be above 0 m, not " + std::to_string(scale_m));
   if (!(gate_m > 0)) throw InvalidOptions("gate_m must be above 0 m, not " + std::to_string(gate_m));
 }

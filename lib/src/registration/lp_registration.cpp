@@ -110,6 +110,7 @@ Termination lp_point_to_plane_step(const std::vector<Correspondence>& matches, c
 RegistrationResult register_lp(const Cloud& source, const ScanPyramid& target, const Eigen::Isometry3d& T_init,
                                const LpRegistrationOptions& options) {
   options.validate();
+  if (!source.empty() && !source.has_normals()) throw InvalidInput("register_lp needs a source with normals");
   RegistrationResult result;
   result.T_target_source = T_init;
   result.termination = Termination::kMaxIterations;

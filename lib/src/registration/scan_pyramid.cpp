@@ -25,6 +25,7 @@ const PyramidLevel& ScanPyramid::level_for(double size_m) const {
 }
 
 double voxel_size_for(const Points& points, std::size_t num_voxels) {
+  if (points.empty()) throw InvalidInput("a cloud without points has no voxel size");
   Eigen::Vector3d low = points.front(), high = points.front();
   for (const auto& p : points) {
     low = low.cwiseMin(p);

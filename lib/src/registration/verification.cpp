@@ -70,6 +70,7 @@ void VerificationOptions::validate() const {
 AlignmentEvidence verify_alignment(const Cloud& held_out, const PyramidLevel& target,
                                    const Eigen::Isometry3d& T_target_source, const VerificationOptions& options) {
   options.validate();
+  if (!held_out.empty() && !held_out.has_normals()) throw InvalidInput("verify_alignment needs points with normals");
   AlignmentEvidence evidence;
   evidence.num_points = held_out.size();
   evidence.tolerance_m = options.tolerance_m;

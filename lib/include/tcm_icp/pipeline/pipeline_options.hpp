@@ -20,7 +20,7 @@ enum class Refinement { kNone, kDescent, kAnnealing, kDescentThenAnnealing };
 /// How many points stand for a scan. Lengths follow from these numbers and the data.
 struct SamplingOptions {
   std::size_t max_working_points = 262'144;  ///< >= 1000; of a scan, while it streams by
-  std::size_t coarse_voxels = 20'000;   ///< >= 100; voxels of a typical scan at the resolution scans are placed with
+  std::size_t coarse_voxels = 30'000;   ///< >= 100; voxels of a typical scan at the resolution scans are placed with
   std::size_t fine_voxels = 100'000;    ///< >= coarse_voxels; and at the one they are adjusted with
   double max_surface_variation = 0.06;  ///< 0..1/3; rougher places (leaves, wires) do not count as surfaces
   void validate() const;                ///< throws InvalidOptions
@@ -50,7 +50,7 @@ struct RefinementOptions {
 struct PipelineOptions {
   Profile profile = Profile::kRobust;
   std::string reference;       ///< file of the reference scan; empty: chosen by the correspondence graph
-  double graph_threshold = 0;  ///< > 0; measure below which scans are connected; 0: from the data
+  double graph_threshold = 0;  ///< >= 0; measure below which scans are connected; 0: from the data
   SamplingOptions sampling;
   OutlierOptions outliers;
   RobustTcmOptions tcm;
