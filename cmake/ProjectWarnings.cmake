@@ -2,6 +2,8 @@
 add_library(tcm_icp_dev_flags INTERFACE)
 target_compile_options(tcm_icp_dev_flags INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Wold-style-cast -Woverloaded-virtual -Wextra-semi
+  # False alarms of g++ 12 on Eigen's allocations and std::string's appends.
+  $<$<CXX_COMPILER_ID:GNU>:-Wno-alloc-size-larger-than> $<$<CXX_COMPILER_ID:GNU>:-Wno-stringop-overflow>
   # The same bits on every machine: no fused multiply-add that only some processors have.
   -ffp-contract=off)
 if(TCM_ICP_WARNINGS_AS_ERRORS)

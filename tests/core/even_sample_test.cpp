@@ -23,7 +23,7 @@ TEST(EvenSample, TakesPointsAtEqualSteps) {
 TEST(EvenSample, IsTheWholeCloudWhereItIsSmallEnough) {
   EXPECT_EQ(even_sample(on_a_line(5), 5), on_a_line(5));
   EXPECT_EQ(even_sample(on_a_line(5), 100), on_a_line(5));
-  EXPECT_TRUE(even_sample({}, 3).empty());
+  EXPECT_TRUE(even_sample(Points{}, 3).empty());
   EXPECT_TRUE(even_sample(on_a_line(5), 0).empty());
 }
 

@@ -14,9 +14,9 @@ namespace tcm_icp {
 ///
 /// The linear programs start from gates of 8, 16, 4 and 32 coarse voxels in turn, because nothing tells how far off the
 /// initial guess is; the first that passes verification ends the turn, otherwise the one with the largest consensus
-/// counts. If none passes, shifts of the initial guess are tried, then annealing searches from it, and the programs start again from what it finds.
-/// Then other poses nearby are tried (pose_search.hpp): the largest consensus wins, and a close runner-up makes the
-/// pose ambiguous.
+/// counts. If none passes, shifts of the initial guess are tried, then annealing searches from it, and the programs
+/// start again from what it finds. Then other poses nearby are tried (pose_search.hpp): the largest consensus wins, and
+/// a close runner-up makes the pose ambiguous.
 Eigen::Isometry3d place_scan(const PreparedScan& scan, const ScanPyramid& merged, const Eigen::Isometry3d& T_init,
                              const PipelineOptions& options, Rng& rng, MergeRecord& record);
 
