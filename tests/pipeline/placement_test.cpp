@@ -24,7 +24,7 @@ struct Placement {
 Placement place(const PreparedScene& s, double angle_rad, double shift_m, std::uint64_t seed,
                 const PipelineOptions& options = {}) {
   MergedCloud merged(s.resolutions.coarse_m);
-  merged.merge(s.scans[0].pyramid.level(0).cloud, Isometry3d::Identity());
+  merged.add(s.scans[0].pyramid.level(0).cloud, Isometry3d::Identity());
   Rng rng = make_stream(seed, "placement_test");
   Placement p;
   p.truth = s.scene.T_target_source(0, 1);
