@@ -174,9 +174,10 @@ class Run {
     parallel_for(context_.num_threads, scans_.size(), [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
         if (!placed_[i] || i == result_.reference) continue;
-        const double runner_up = result_.evidence[i]->runner_up;
+        const AlignmentEvidence at_merge = *result_.evidence[i];
         result_.evidence[i] = verify_against_neighbors(scans_, pairs_, i, T_reference_scan_);
-        result_.evidence[i]->runner_up = runner_up;
+        result_.evidence[i]->runner_up = at_merge.runner_up;  // what the scan's placement found out stays true
+        result_.evidence[i]->searched = at_merge.searched;
       }
     });
     std::optional<std::size_t> worst;

@@ -202,6 +202,7 @@ Eigen::Isometry3d place_scan(const PreparedScan& scan, const ScanPyramid& merged
   placer.refine(best, rng, record);
   record.evidence = placer.verify(best.fit.T_target_source);
   record.evidence->runner_up = best.evidence.runner_up;
+  record.evidence->searched = record.searched;
   const Verdict verdict = judge(*record.evidence);
   record.accepted = verdict.accepted;
   record.reason = verdict.reason;

@@ -30,7 +30,8 @@ Json to_json(const AlignmentEvidence& e) {
           {"tolerance_m", e.tolerance_m},
           {"slide_m", e.slide_m},
           {"left_after_slide", e.left_after_slide},
-          {"runner_up", number(e.runner_up)}};
+          {"runner_up", number(e.runner_up)},
+          {"searched", e.searched}};
 }
 
 Json to_json(const RegistrationResult& r) {

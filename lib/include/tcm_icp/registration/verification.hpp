@@ -25,6 +25,8 @@ struct AlignmentEvidence {
   /// Consensus of the best other pose found nearby (structure that repeats), by this pose's: 1 is a tie. 0 where none
   /// was found; NaN where none was looked for.
   double runner_up = std::numeric_limits<double>::quiet_NaN();
+  bool searched =
+      false;  ///< the pose came from a wide search, which meets more chance fits than a start near the guess
 
   /// Share of all held-out points that agree.
   double consensus() const { return overlap * inlier_share; }
