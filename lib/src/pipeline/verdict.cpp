@@ -15,9 +15,11 @@ std::string percent(double share) {
 // What is left of the agreement after a slide by four voxels, at most, where a pose is right. On real and simulated
 // scenes right poses leave 0.16 to 0.70 in their weakest direction, wrong ones 0.79 and more, most of them above 1.
 constexpr double kMaxLeftAfterSlide = 0.75;
-// A pose that a wide search came up with is one of many it looked at, so more is asked of it. A mirrored scan of a flat
-// campus, which no motion can place, reached 0.60 in this way.
+// A pose that a wide search came up with is one of many it looked at, so more is asked of it: it must be sharp, or most
+// of the scan must have a counterpart. A mirrored scan of a flat campus, which no motion can place, reached 0.60 with
+// 0.60 of its points overlapping.
 constexpr double kMaxLeftAfterSlideSearched = 0.55;
+constexpr double kMinOverlapSearched = 2.0 / 3;
 // Neighbours at random lie within a quarter voxel of the plane, normals agreeing, in 5 to 15 % of cases.
 constexpr double kMinInlierShare = 0.2;
 constexpr double kMaxRunnerUp = 0.85;
@@ -45,7 +47,8 @@ Verdict judge(const AlignmentEvidence& evidence) {
   if (evidence.runner_up > kMaxRunnerUp) {
     return {false, "ambiguous: another pose nearby has " + percent(evidence.runner_up) + " of the agreement"};
   }
-  const double max_left = evidence.searched ? kMaxLeftAfterSlideSearched : kMaxLeftAfterSlide;
+  const bool strict = evidence.searched && evidence.overlap < kMinOverlapSearched;
+  const double max_left = strict ? kMaxLeftAfterSlideSearched : kMaxLeftAfterSlide;
   if (evidence.left_after_slide[0] > max_left) {
     return {false, "ambiguous: moved along its weakest direction, it still agrees at " +
                        percent(evidence.left_after_slide[0]) + " of as many points"};
