@@ -123,8 +123,7 @@ class Run {
 
   /// The measures need two points at the least, and so does a fit.
   bool large_enough(std::size_t scan) const {
-    const bool enough = std::min(scans_[scan].tcm_points.size(), scans_[result_.reference].tcm_points.size()) >= 2;
-    return enough && scans_[result_.reference].pyramid.level(1).cloud.size() >= 2;
+    return std::min(scans_[scan].tcm_points.size(), scans_[result_.reference].tcm_points.size()) >= 2;
   }
 
   void compute_tcm(const ScanPyramid& merged, std::vector<MergeCandidate>& candidates) const {
