@@ -40,6 +40,7 @@ TEST(NeighborIndex, AgreesWithLoopsOnDistances) {
     for (std::size_t i = 0; i < found.size(); ++i) EXPECT_NEAR(found[i].squared_distance_m2, expected[i], 1e-12);
     const Neighbor near = index.nearest_within(q, radius);
     EXPECT_EQ(near.found(), expected[0] <= radius * radius);
+    EXPECT_EQ(index.any_within(q, radius), near.found());
   }
 }
 
@@ -76,6 +77,7 @@ TEST(NeighborIndex, FindsNothingWhereThereIsNothing) {
   EXPECT_EQ(index.size(), 0u);
   EXPECT_FALSE(index.nearest({0, 0, 0}).found());
   EXPECT_FALSE(index.nearest_within({0, 0, 0}, 1).found());
+  EXPECT_FALSE(index.any_within({0, 0, 0}, 1));
   index.nearest_k({0, 0, 0}, 3, found);
   EXPECT_TRUE(found.empty());
 }

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 #include <numeric>
 
@@ -46,6 +47,20 @@ TEST(KMeans, ACentroidWithoutPointsStays) {
   const KMeansResult result = kmeans(kLine, start, 10, 1);
   EXPECT_EQ(result.size, (std::vector<std::size_t>{3, 2, 0}));
   EXPECT_EQ(result.centroids[2], start[2]);
+}
+
+TEST(KMeans, AssignsEachPointToItsNearestCentroid) {
+  Rng rng = make_stream(2, "kmeans_test");
+  const Points points = testing::random_points(2000, 10, rng), start = testing::random_points(50, 10, rng);
+  for (const int iterations : {0, 1, 5}) {
+    const KMeansResult result = kmeans(points, start, iterations, 1);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      double nearest = std::numeric_limits<double>::infinity();
+      for (const auto& c : result.centroids) nearest = std::min(nearest, (points[i] - c).squaredNorm());
+      EXPECT_NEAR(result.squared_distance_m2[i], nearest, 1e-12);
+      EXPECT_NEAR((points[i] - result.centroids[result.cluster[i]]).squaredNorm(), nearest, 1e-12);
+    }
+  }
 }
 
 TEST(KMeans, NeverRaisesTheSumOfSquaredDistances) {

@@ -69,6 +69,14 @@ struct NearestK {
   }
 };
 
+// The first one found ends the search: nothing lies within a negative limit.
+struct AnyWithin {
+  double squared_radius_m2;
+  bool found = false;
+  double limit_m2() const { return found ? -1 : squared_radius_m2; }
+  void take(std::uint32_t, double) { found = true; }
+};
+
 struct AllWithin {
   double squared_radius_m2;
   std::vector<Neighbor>& found;
@@ -126,6 +134,12 @@ Neighbor NeighborIndex::nearest_within(const Eigen::Vector3d& query, double radi
   NearestOne visitor{{kNone, radius_m * radius_m}};
   impl_->search(query, visitor);
   return visitor.best.index != kNone ? visitor.best : Neighbor{};
+}
+
+bool NeighborIndex::any_within(const Eigen::Vector3d& query, double radius_m) const {
+  AnyWithin visitor{radius_m * radius_m};
+  impl_->search(query, visitor);
+  return visitor.found;
 }
 
 void NeighborIndex::nearest_k(const Eigen::Vector3d& query, std::size_t k, std::vector<Neighbor>& out) const {

@@ -4,9 +4,11 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include "tcm_icp/core/error.hpp"
 #include "tcm_icp/core/statistics.hpp"
+#include "voxel_table.hpp"
 
 namespace tcm_icp {
 namespace {
@@ -14,58 +16,16 @@ namespace {
 // The first voxel edge as a share of the scan's size: 2.5 mm for a scan whose points lie 10 m from its middle.
 constexpr double kFirstVoxelShare = 1.0 / 4096;
 
-// Half the time a typical sample takes is look-ups, and nodes of std::unordered_map cost a cache miss each: keys lie in
-// one array (open addressing, linear probing), values are positions in the list of voxels.
-class VoxelTable {
- public:
-  static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
-
-  VoxelTable() : slots_(1024) {}
-
-  /// The voxel's position; `next` is stored and returned where the voxel is new.
-  std::uint32_t find_or_insert(const VoxelKey& key, std::uint32_t next) {
-    Slot& slot = find(key);
-    if (slot.position != kNone) return slot.position;
-    slot = {key, next};
-    if (2 * ++num_used_ > slots_.size()) grow();
-    return next;
-  }
-
- private:
-  struct Slot {
-    VoxelKey key;
-    std::uint32_t position = kNone;
-  };
-
-  Slot& find(const VoxelKey& key) {
-    const std::size_t mask = slots_.size() - 1;
-    std::size_t i = VoxelKeyHash{}(key)&mask;
-    while (slots_[i].position != kNone && !(slots_[i].key == key)) i = (i + 1) & mask;
-    return slots_[i];
-  }
-
-  // Begun small: as long as the table fits the cache a look-up costs a tenth.
-  void grow() {
-    std::vector<Slot> old(2 * slots_.size());
-    old.swap(slots_);
-    for (const Slot& slot : old) {
-      if (slot.position != kNone) find(slot.key) = slot;
-    }
-  }
-
-  std::vector<Slot> slots_;
-  std::size_t num_used_ = 0;
-};
-
 struct Voxel {
-  VoxelKey key;
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   double count = 0;
 };
 
 std::int64_t floor_to_int(double value) {
   constexpr double kLimit = 0x1.0p61;
-  return static_cast<std::int64_t>(std::floor(std::clamp(value, -kLimit, kLimit)));
+  const double clamped = std::clamp(value, -kLimit, kLimit);
+  const auto truncated = static_cast<std::int64_t>(clamped);  // std::floor is a call on plain x86-64
+  return truncated - (static_cast<double>(truncated) > clamped ? 1 : 0);
 }
 
 }  // namespace
@@ -111,26 +71,27 @@ struct VoxelSampler::Impl {
   }
 
   void insert(const VoxelKey& key, const Eigen::Vector3d& sum, double count) {
-    const std::uint32_t position = table.find_or_insert(key, static_cast<std::uint32_t>(voxels.size()));
-    if (position == voxels.size()) voxels.push_back({key, Eigen::Vector3d::Zero(), 0});
-    voxels[position].sum += sum;
-    voxels[position].count += count;
+    add(key, sum, count);
     while (voxels.size() > max_voxels) coarsen();
   }
 
   void coarsen() {
     std::vector<Voxel> finer;
     finer.swap(voxels);
-    table = VoxelTable();
+    const VoxelTable finer_table = std::exchange(table, VoxelTable());
     size *= 2;
-    for (const auto& v : finer) {
+    for (std::size_t i = 0; i < finer.size(); ++i) {
+      const VoxelKey& key = finer_table.keys()[i];
       // Arithmetic shift: floor(k / 2) for negative keys too.
-      const VoxelKey key{v.key.x >> 1, v.key.y >> 1, v.key.z >> 1};
-      const std::uint32_t position = table.find_or_insert(key, static_cast<std::uint32_t>(voxels.size()));
-      if (position == voxels.size()) voxels.push_back({key, Eigen::Vector3d::Zero(), 0});
-      voxels[position].sum += v.sum;
-      voxels[position].count += v.count;
+      add({key.x >> 1, key.y >> 1, key.z >> 1}, finer[i].sum, finer[i].count);
     }
+  }
+
+  void add(const VoxelKey& key, const Eigen::Vector3d& sum, double count) {
+    const std::uint32_t number = table.find_or_insert(key);
+    if (number == voxels.size()) voxels.emplace_back();
+    voxels[number].sum += sum;
+    voxels[number].count += count;
   }
 };
 
@@ -175,12 +136,11 @@ double VoxelSampler::voxel_size_m() const { return impl_->size; }
 
 std::size_t count_voxels(const Points& points, double voxel_size_m, std::size_t stop_at) {
   VoxelTable table;
-  std::uint32_t count = 0;
   for (const auto& p : points) {
-    if (count >= stop_at) break;
-    if (table.find_or_insert(voxel_key(p, voxel_size_m), count) == count) ++count;
+    if (table.size() >= stop_at) break;
+    table.find_or_insert(voxel_key(p, voxel_size_m));
   }
-  return count;
+  return table.size();
 }
 
 Cloud voxel_downsample(const Cloud& cloud, double voxel_size_m) {
@@ -188,9 +148,8 @@ Cloud voxel_downsample(const Cloud& cloud, double voxel_size_m) {
   std::vector<Voxel> voxels;
   std::vector<std::uint32_t> voxel_of(cloud.size());
   for (std::size_t i = 0; i < cloud.size(); ++i) {
-    const VoxelKey key = voxel_key(cloud.points[i], voxel_size_m);
-    voxel_of[i] = table.find_or_insert(key, static_cast<std::uint32_t>(voxels.size()));
-    if (voxel_of[i] == voxels.size()) voxels.push_back({key, Eigen::Vector3d::Zero(), 0});
+    voxel_of[i] = table.find_or_insert(voxel_key(cloud.points[i], voxel_size_m));
+    if (voxel_of[i] == voxels.size()) voxels.emplace_back();
     voxels[voxel_of[i]].sum += cloud.points[i];
     voxels[voxel_of[i]].count += 1;
   }
@@ -200,7 +159,8 @@ Cloud voxel_downsample(const Cloud& cloud, double voxel_size_m) {
   if (!cloud.has_normals()) return out;
 
   // Normals have no sign: take the point nearest the mean for the direction, and add the others turned its way.
-  std::vector<std::uint32_t> nearest(voxels.size(), VoxelTable::kNone);
+  constexpr auto kNone = std::numeric_limits<std::uint32_t>::max();
+  std::vector<std::uint32_t> nearest(voxels.size(), kNone);
   std::vector<double> nearest_squared(voxels.size(), std::numeric_limits<double>::infinity());
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     const double squared = (cloud.points[i] - out.points[voxel_of[i]]).squaredNorm();
@@ -212,7 +172,7 @@ Cloud voxel_downsample(const Cloud& cloud, double voxel_size_m) {
   out.normals.assign(voxels.size(), Eigen::Vector3d::Zero());
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     const std::uint32_t v = voxel_of[i];
-    if (nearest[v] == VoxelTable::kNone) continue;
+    if (nearest[v] == kNone) continue;
     const double along = cloud.normals[i].dot(cloud.normals[nearest[v]]);
     out.normals[v] += along < 0 ? Eigen::Vector3d(-cloud.normals[i]) : cloud.normals[i];
   }

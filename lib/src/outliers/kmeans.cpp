@@ -2,6 +2,7 @@
 
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "tcm_icp/core/error.hpp"
 #include "tcm_icp/core/neighbor_index.hpp"
@@ -10,12 +11,41 @@
 namespace tcm_icp {
 namespace {
 
-// Writes each point's cluster and distance.
-void assign(const Points& points, KMeansResult& result, int num_threads) {
+// Summed as the neighbour index sums, so that both find the same bits.
+double squared_distance(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  const double x = a.x() - b.x(), y = a.y() - b.y(), z = a.z() - b.z();
+  return x * x + y * y + z * z;
+}
+
+// For each centroid the squared distance [m^2] below which it is the nearest for sure: half-way to the next one, less
+// what rounding may add.
+std::vector<double> own_spheres(const Points& centroids, const NeighborIndex& index) {
+  std::vector<double> squared;
+  squared.reserve(centroids.size());
+  std::vector<Neighbor> two;
+  for (const auto& c : centroids) {
+    index.nearest_k(c, 2, two);
+    squared.push_back(two.size() < 2 ? 0 : two[1].squared_distance_m2 / 4 * (1 - 1e-9));
+  }
+  return squared;
+}
+
+// Writes each point's cluster and distance. `again` where an earlier call has: most points stay where they are, and are
+// spared the search.
+void assign(const Points& points, bool again, KMeansResult& result, int num_threads) {
   const NeighborIndex index(result.centroids);
+  const std::vector<double> own = again ? own_spheres(result.centroids, index) : std::vector<double>();
   parallel_for(num_threads, points.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       if (!points[i].allFinite()) throw InvalidInput("k-means was given a point that is not finite");
+      if (again) {
+        const std::uint32_t c = result.cluster[i];
+        const double squared_m2 = squared_distance(points[i], result.centroids[c]);
+        if (squared_m2 < own[c]) {
+          result.squared_distance_m2[i] = squared_m2;
+          continue;
+        }
+      }
       const Neighbor n = index.nearest(points[i]);
       result.cluster[i] = n.index;
       result.squared_distance_m2[i] = n.squared_distance_m2;
@@ -47,12 +77,12 @@ KMeansResult kmeans(const Points& points, const Points& initial_centroids, int m
   result.centroids = initial_centroids;
   result.cluster.resize(points.size());
   result.squared_distance_m2.resize(points.size());
-  assign(points, result, num_threads);
+  assign(points, false, result, num_threads);
   count_sizes(result);
   while (!result.converged && result.num_iterations < max_iterations) {
     const std::vector<std::uint32_t> before = result.cluster;
     move_centroids(points, result);
-    assign(points, result, num_threads);
+    assign(points, true, result, num_threads);
     count_sizes(result);
     ++result.num_iterations;
     result.converged = result.cluster == before;

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <optional>
 #include <string>
-#include <unordered_map>
 #include <unordered_set>
 #include <utility>
 
+#include "core/voxel_table.hpp"
 #include "outliers/outlier_detectors.hpp"
 #include "tcm_icp/core/error.hpp"
 #include "tcm_icp/core/neighbor_index.hpp"
@@ -36,17 +36,21 @@ struct ThinnedCloud {
 };
 
 ThinnedCloud thin(const Points& working_cloud, double voxel_size_m) {
-  Points means = working_cloud;
-  while (means.size() > kMaxVoxels) {
+  // Voxels that halve nest, so that nothing has to be remembered from one size to the next; dense ones end the count.
+  std::size_t num_voxels = working_cloud.size();
+  while (num_voxels > kMaxVoxels) {
     voxel_size_m *= 2;
-    means = voxel_downsample({std::move(means), {}}, voxel_size_m).points;
+    num_voxels = count_voxels(working_cloud, voxel_size_m, kMaxVoxels + 1);
   }
-  std::unordered_map<VoxelKey, int, VoxelKeyHash> count;  // looked up only: its order decides nothing
+  VoxelTable table;
+  std::vector<int> count;
   Points points;
   for (const auto& p : working_cloud) {
-    if (count[voxel_key(p, voxel_size_m)]++ < kMaxPointsPerVoxel) points.push_back(p);
+    const std::uint32_t voxel = table.find_or_insert(voxel_key(p, voxel_size_m));
+    if (voxel == count.size()) count.push_back(0);
+    if (count[voxel]++ < kMaxPointsPerVoxel) points.push_back(p);
   }
-  return {std::move(points), means.size(), voxel_size_m};
+  return {std::move(points), num_voxels, voxel_size_m};
 }
 
 bool all_equal(const Points& points) {
@@ -58,7 +62,7 @@ bool all_equal(const Points& points) {
 struct OutlierRule::Impl {
   // kKMeans
   std::optional<NeighborIndex> centroids;
-  double squared_threshold_m2 = 0;
+  double threshold_m = 0;
   // kDistance and kLof; membership only, so the order of a hash decides nothing
   std::unordered_set<VoxelKey, VoxelKeyHash> outlier_voxels;
   double voxel_size_m = 0;
@@ -71,7 +75,7 @@ OutlierRule::OutlierRule(std::shared_ptr<const Impl> impl, OutlierSummary summar
 bool OutlierRule::is_outlier(const Eigen::Vector3d& p) const {
   if (!p.allFinite()) return true;
   if (!impl_) return false;
-  if (impl_->centroids) return impl_->centroids->nearest(p).squared_distance_m2 > impl_->squared_threshold_m2;
+  if (impl_->centroids) return !impl_->centroids->any_within(p, impl_->threshold_m);
   return !impl_->outlier_voxels.empty() && impl_->outlier_voxels.contains(voxel_key(p, impl_->voxel_size_m));
 }
 
@@ -139,7 +143,7 @@ OutlierRule learn_outlier_rule(const Points& working_cloud, double voxel_size_m,
   if (options.method == OutlierMethod::kKMeans) {
     const auto rule = detail::learn_kmeans_rule(thinned.points, thinned.num_voxels, options, rng, num_threads, summary);
     impl->centroids.emplace(rule.centroids);
-    impl->squared_threshold_m2 = rule.threshold_m * rule.threshold_m;
+    impl->threshold_m = rule.threshold_m;
   } else {
     impl->voxel_size_m = thinned.voxel_size_m;
     impl->outlier_voxels = outlier_voxels(

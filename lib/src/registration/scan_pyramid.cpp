@@ -7,6 +7,12 @@
 #include "tcm_icp/core/voxel_sampler.hpp"
 
 namespace tcm_icp {
+namespace {
+
+constexpr int kSearchedHalvings = 4;  // beyond the first size that may be enough: scans are surfaces, not solids
+constexpr int kMaxHalvings = 40;      // 1e-12 of the diagonal
+
+}  // namespace
 
 ScanPyramid::ScanPyramid(const Cloud& cloud, double finest_voxel_m, std::size_t num_levels) {
   double voxel = finest_voxel_m;
@@ -31,17 +37,24 @@ double voxel_size_for(const Points& points, std::size_t num_voxels) {
     low = low.cwiseMin(p);
     high = high.cwiseMax(p);
   }
-  double coarse = (high - low).norm();
-  if (!(coarse > 0)) throw InvalidInput("all points of a cloud are equal: no voxel size can be derived");
-  // Coarse to fine by halves, so that the dense grids are only counted near the answer.
-  double fine = coarse;
+  const double diagonal = (high - low).norm();
+  if (!(diagonal > 0)) throw InvalidInput("all points of a cloud are equal: no voxel size can be derived");
   const std::size_t wanted = std::min(num_voxels, points.size() / 2);
   const auto enough = [&](double size) { return count_voxels(points, size, wanted) >= wanted; };
-  while (!enough(fine)) {
-    coarse = fine;
-    fine /= 2;
-    if (fine < 1e-12 * (high - low).norm()) break;
+  // Voxels of a 2^n-th of the diagonal: at most 2^n + 1 of them an axis, so the first sizes cannot be enough.
+  int least = 0;
+  for (double most = 2; most * most * most < static_cast<double>(wanted); most = 2 * most - 1) ++least;
+  // A count ends where it is enough: those of small voxels soon, those of large ones after all points. Such voxels
+  // nest, so that the answer does not depend on where the search begins.
+  int halvings = least + kSearchedHalvings;
+  if (enough(std::ldexp(diagonal, -halvings))) {
+    while (halvings > least && enough(std::ldexp(diagonal, 1 - halvings))) --halvings;
+  } else {
+    do {
+      ++halvings;
+    } while (halvings < kMaxHalvings && !enough(std::ldexp(diagonal, -halvings)));
   }
+  double fine = std::ldexp(diagonal, -halvings), coarse = halvings > 0 ? 2 * fine : fine;
   for (int i = 0; i < 4; ++i) {
     const double middle = std::sqrt(coarse * fine);
     (enough(middle) ? fine : coarse) = middle;

@@ -39,6 +39,9 @@ class NeighborIndex {
   /// is cheap.
   Neighbor nearest_within(const Eigen::Vector3d& query, double radius_m) const;
 
+  /// Whether a point lies within `radius_m`: ends at the first one.
+  bool any_within(const Eigen::Vector3d& query, double radius_m) const;
+
   /// Up to k nearest points, by distance and then index.
   void nearest_k(const Eigen::Vector3d& query, std::size_t k, std::vector<Neighbor>& out) const;
 
