@@ -5,22 +5,24 @@ set -euo pipefail
 
 usage() {
   cat <<'TEXT'
-Usage: install_dependencies.sh [--tests] [--checks] [--benchmarks]
+Usage: install_dependencies.sh [--tests] [--checks] [--benchmarks] [--comparison]
   --tests       also what the tests need (GoogleTest)
   --checks      also what the format and script checks need (clang-format, shellcheck)
   --benchmarks  also what the benchmarks compare with (Google Benchmark, nanoflann, PCL: more than 1 GB)
+  --comparison  also what scripts/compare_registration.py compares with (PCL, Open3D for Python)
 TCM_ICP_SKIP_INSTALL=1 turns the script off: for systems other than Debian, where the libraries came another way.
 TEXT
 }
 
 # GMP, MPFR and Boost's headers come with libcgal-dev.
-packages=(g++ cmake ninja-build ccache libcgal-dev libeigen3-dev libglpk-dev libboost-program-options-dev libtbb-dev
-          nlohmann-json3-dev)
+packages=(g++ cmake ninja-build ccache libcgal-dev libeigen3-dev libfftw3-dev libglpk-dev libboost-program-options-dev
+          libtbb-dev nlohmann-json3-dev)
 while (($# > 0)); do
   case $1 in
     --tests) packages+=(libgtest-dev) ;;
     --checks) packages+=(clang-format shellcheck) ;;
     --benchmarks) packages+=(libbenchmark-dev libnanoflann-dev libpcl-dev python3) ;;
+    --comparison) packages+=(libbenchmark-dev libpcl-dev python3-numpy python3-open3d) ;;
     -h | --help) usage; exit 0 ;;
     *) usage >&2; exit 1 ;;
   esac

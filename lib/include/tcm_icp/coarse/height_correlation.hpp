@@ -1,0 +1,42 @@
+#pragma once
+// Poses of pairs of scans with no initial guess: height maps correlated over all headings and shifts.
+
+#include <cstddef>
+#include <vector>
+
+#include "tcm_icp/coarse/height_map.hpp"
+#include "tcm_icp/coarse/pose_candidate.hpp"
+#include "tcm_icp/coarse/vertical.hpp"
+
+namespace tcm_icp {
+
+struct HeightCorrelationOptions {
+  int cells_across = 80;           ///< >= 16; cells a typical scan is wide in the search; twice as many decide
+  int max_grid = 384;              ///< >= 64; cells the search grid is wide at most; longer scans get larger cells
+  double heading_step_deg = 5;     ///< > 0, <= 15; rounded so that a quarter turn is a whole number of steps
+  double min_shared_share = 0.05;  ///< 0..1; shared cells by the cells of the smaller scan
+  int max_candidates = 5;          ///< >= 1; per pair
+  VerticalOptions vertical;
+  HeightMapOptions map;
+  void validate() const;  ///< throws InvalidOptions
+};
+
+/// Two scans of a set, by their places in it.
+struct ScanPair {
+  std::size_t target = 0;
+  std::size_t source = 0;
+};
+
+/// For each pair up to max_candidates clearly different poses, the best score first. Score: mean of the normalised
+/// correlations of heights and of walls over the shared cells, by the root of twice their number; a pose by chance has
+/// about 10. The best pose's margin is against the second, the others' against the best.
+///
+/// @param scans  one cloud for each scan, evenly sampled, each in its own frame; normals sharpen the result
+/// @throws InvalidInput  if a cloud has fewer than 3 points, all are equal, or a pair is out of range
+/// Cost: 72 inverse transforms a pair, 20 to 60 ms of processor time; memory for nine spectra a scan. The result does
+/// not depend on the number of threads.
+std::vector<std::vector<PoseCandidate>> correlate_height_maps(const std::vector<const Cloud*>& scans,
+                                                              const std::vector<ScanPair>& pairs,
+                                                              const HeightCorrelationOptions& options, int num_threads);
+
+}  // namespace tcm_icp

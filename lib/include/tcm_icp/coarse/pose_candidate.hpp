@@ -1,0 +1,17 @@
+#pragma once
+// A pose two scans may have, before anything verified it.
+
+#include <Eigen/Geometry>
+
+namespace tcm_icp {
+
+enum class CoarseMethod { kFeatures, kHeightMap };
+
+struct PoseCandidate {
+  Eigen::Isometry3d T_target_source = Eigen::Isometry3d::Identity();
+  CoarseMethod method = CoarseMethod::kFeatures;
+  double score = 0;   ///< larger is better; comparable within a method and a set
+  double margin = 0;  ///< score by the best score of a clearly different pose of the same pair and method; 1 is a tie
+};
+
+}  // namespace tcm_icp

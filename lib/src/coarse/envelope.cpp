@@ -1,0 +1,59 @@
+#include "envelope.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "tcm_icp/core/statistics.hpp"
+
+namespace tcm_icp {
+
+int Envelope::num_occupied() const {
+  return static_cast<int>(std::count_if(lowest_m.begin(), lowest_m.end(), [](float h) { return !std::isnan(h); }));
+}
+
+Eigen::Matrix3d levelling_rotation(const Eigen::Vector3d& up) {
+  return Eigen::Quaterniond::FromTwoVectors(up, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+}
+
+Envelope make_envelope(const Points& points, const Eigen::Matrix3d& R_level_scan, double cell_m) {
+  Points level(points.size());
+  Eigen::AlignedBox3d box;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    level[i] = R_level_scan * points[i];
+    box.extend(level[i]);
+  }
+  Envelope out;
+  out.cell_m = cell_m;
+  out.width = static_cast<int>(box.sizes().x() / cell_m) + 1;
+  out.height = static_cast<int>(box.sizes().y() / cell_m) + 1;
+  const auto size = static_cast<std::size_t>(out.width) * static_cast<std::size_t>(out.height);
+  out.lowest_m.assign(size, std::numeric_limits<float>::quiet_NaN());
+  out.highest_m = out.lowest_m;
+  for (const auto& p : level) {
+    const auto column = static_cast<std::size_t>((p.x() - box.min().x()) / cell_m);
+    const auto row = static_cast<std::size_t>((p.y() - box.min().y()) / cell_m);
+    const std::size_t k = row * static_cast<std::size_t>(out.width) + column;
+    const auto h = static_cast<float>(p.z() - box.min().z());
+    // Written so that a NaN gives way.
+    if (!(out.lowest_m[k] <= h)) out.lowest_m[k] = h;
+    if (!(out.highest_m[k] >= h)) out.highest_m[k] = h;
+  }
+  return out;
+}
+
+double roughness_m(const Envelope& envelope, const std::vector<float>& heights_m) {
+  std::vector<double> steps;
+  const auto width = static_cast<std::size_t>(envelope.width);
+  for (std::size_t k = 0; k < heights_m.size(); ++k) {
+    if (std::isnan(heights_m[k])) continue;
+    const bool has_right = (k + 1) % width != 0 && !std::isnan(heights_m[k + 1]);
+    const bool has_below = k + width < heights_m.size() && !std::isnan(heights_m[k + width]);
+    if (has_right) steps.push_back(std::abs(heights_m[k + 1] - heights_m[k]));
+    if (has_below) steps.push_back(std::abs(heights_m[k + width] - heights_m[k]));
+  }
+  if (steps.empty()) return std::numeric_limits<double>::infinity();
+  return std::sqrt(quantile(steps, 0.5) * quantile(steps, 0.75));
+}
+
+}  // namespace tcm_icp

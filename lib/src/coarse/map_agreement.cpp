@@ -1,0 +1,163 @@
+#include "map_agreement.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace tcm_icp {
+namespace {
+
+// Sums over the shared cells, for the nine shifts of up to one cell.
+struct Sums {
+  float n = 0;
+  struct Channel {
+    float t = 0, s = 0, tt = 0, ss = 0, ts = 0;
+    void add(float target, float source, float seen) {
+      t += target;
+      s += seen * source;
+      tt += target * target;
+      ss += seen * source * source;
+      ts += target * source;
+    }
+  } detail, structure;
+
+  static double correlation(const Channel& c, double count) {
+    const double t = c.t, s = c.s;
+    const double covariance = c.ts - t * s / count;
+    const double variances = (c.tt - t * t / count) * (c.ss - s * s / count);
+    return variances > 0 ? covariance / std::sqrt(variances) : 0;
+  }
+  double score(double share, double min_shared) const {
+    if (n < 2 || n < min_shared * share) return 0;
+    return (correlation(detail, n) + correlation(structure, n)) * std::sqrt(n / share / 2);
+  }
+};
+
+struct Turned {
+  float c, s, x, y;
+
+  Turned(const MapPeak& pose, int target_size)
+      : c(static_cast<float>(std::cos(pose.heading_rad))),
+        s(static_cast<float>(std::sin(pose.heading_rad))),
+        x(static_cast<float>(pose.x + target_size / 2 + 0.5)),
+        y(static_cast<float>(pose.y + target_size / 2 + 0.5)) {}
+  // In cells of the target, not negative inside the map.
+  float column(const Eigen::Vector2f& p) const { return c * p.x() - s * p.y() + x; }
+  float row(const Eigen::Vector2f& p) const { return s * p.x() + c * p.y() + y; }
+};
+
+constexpr int kReach = 1, kShifts = 2 * kReach + 1;
+
+std::array<Sums, kShifts * kShifts> sums_around(const HeightMap& target, const MapCells& source, const MapPeak& pose) {
+  std::array<Sums, kShifts * kShifts> sums;
+  const Turned turned(pose, target.size);
+  const auto last = static_cast<float>(target.size - kReach);
+  for (std::size_t i = 0; i < source.position.size(); ++i) {
+    const float u = turned.column(source.position[i]), v = turned.row(source.position[i]);
+    if (!(u >= kReach && v >= kReach && u < last && v < last)) continue;
+    const float detail = source.detail[i], structure = source.structure[i];
+    for (int dy = -kReach; dy <= kReach; ++dy) {
+      const auto first =
+          static_cast<std::size_t>((static_cast<int>(v) + dy) * target.size + static_cast<int>(u) - kReach);
+      for (std::size_t dx = 0; dx < kShifts; ++dx) {
+        Sums& p = sums[static_cast<std::size_t>(dy + kReach) * kShifts + dx];
+        const std::size_t k = first + dx;
+        const float seen = target.mask[k];
+        p.n += seen;
+        p.detail.add(target.detail[k], detail, seen);
+        p.structure.add(target.structure[k], structure, seen);
+      }
+    }
+  }
+  return sums;
+}
+
+// Middle of the shared cells in the source map: turning about it leaves the shared area in place.
+Eigen::Vector2d shared_middle(const HeightMap& target, const MapCells& source, const MapPeak& pose) {
+  const Turned turned(pose, target.size);
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  double n = 0;
+  for (const auto& p : source.position) {
+    const float u = turned.column(p), v = turned.row(p);
+    if (!(u >= 0 && v >= 0 && u < static_cast<float>(target.size) && v < static_cast<float>(target.size))) continue;
+    const std::size_t k =
+        static_cast<std::size_t>(v) * static_cast<std::size_t>(target.size) + static_cast<std::size_t>(u);
+    if (target.mask[k] == 0) continue;
+    sum += p.cast<double>();
+    ++n;
+  }
+  return n > 0 ? Eigen::Vector2d(sum / n) : Eigen::Vector2d::Zero();
+}
+
+}  // namespace
+
+MapCells list_cells(const HeightMap& map, std::size_t max_cells) {
+  MapCells out;
+  const auto seen = static_cast<std::size_t>(map.num_seen), kept = std::min(max_cells, seen);
+  std::size_t i = 0;
+  for (std::size_t k = 0; k < map.mask.size(); ++k) {
+    if (map.mask[k] == 0) continue;
+    // Every cell whose place in the list of `kept` differs from that of the cell before.
+    if (i * kept / seen != (i + 1) * kept / seen) {
+      const auto n = static_cast<std::size_t>(map.size);
+      out.position.emplace_back(static_cast<float>(k % n) - static_cast<float>(map.size / 2),
+                                static_cast<float>(k / n) - static_cast<float>(map.size / 2));
+      out.detail.push_back(map.detail[k]);
+      out.structure.push_back(map.structure[k]);
+      out.height_m.push_back(map.height_m[k]);
+    }
+    ++i;
+  }
+  out.share = seen == 0 ? 1 : static_cast<double>(kept) / static_cast<double>(seen);
+  return out;
+}
+
+double agreement(const HeightMap& target, const MapCells& source, const MapPeak& pose, double min_shared) {
+  const auto sums = sums_around(target, source, pose);
+  return sums[sums.size() / 2].score(source.share, min_shared);
+}
+
+MapPeak refine_peak(const HeightMap& target, const MapCells& source, const MapPeak& start, double heading_step_rad,
+                    double min_shared) {
+  const Eigen::Vector2d middle = shared_middle(target, source, start);
+  const Eigen::Vector2d fixed = Eigen::Rotation2Dd(start.heading_rad) * middle + Eigen::Vector2d(start.x, start.y);
+  MapPeak best = start;
+  best.score = 0;
+  for (const double step : {0.0, -1.0, 1.0}) {
+    MapPeak pose = start;
+    pose.heading_rad += step * heading_step_rad;
+    const Eigen::Vector2d shift = fixed - Eigen::Rotation2Dd(pose.heading_rad) * middle;
+    pose.x = shift.x();
+    pose.y = shift.y();
+    const auto sums = sums_around(target, source, pose);
+    for (std::size_t k = 0; k < sums.size(); ++k) {
+      const double score = sums[k].score(source.share, min_shared);
+      if (score <= best.score) continue;
+      best = pose;
+      best.score = score;
+      best.x += static_cast<double>(k % kShifts) - kReach;
+      best.y += static_cast<double>(k / kShifts) - kReach;
+    }
+  }
+  return best;
+}
+
+SharedCells shared_cells(const HeightMap& target, const HeightMap& source, const MapCells& cells, const MapPeak& pose) {
+  SharedCells out;
+  const Turned turned(pose, target.size);
+  for (std::size_t i = 0; i < cells.position.size(); ++i) {
+    const float u = turned.column(cells.position[i]), v = turned.row(cells.position[i]);
+    if (!(u >= 0 && v >= 0 && u < static_cast<float>(target.size) && v < static_cast<float>(target.size))) continue;
+    const auto column = static_cast<int>(u), row = static_cast<int>(v);
+    const std::size_t k =
+        static_cast<std::size_t>(row) * static_cast<std::size_t>(target.size) + static_cast<std::size_t>(column);
+    if (target.mask[k] == 0) continue;
+    out.target.emplace_back((column - target.size / 2) * target.cell_m, (row - target.size / 2) * target.cell_m,
+                            target.height_m[k]);
+    out.source.emplace_back(cells.position[i].x() * source.cell_m, cells.position[i].y() * source.cell_m,
+                            cells.height_m[i]);
+  }
+  return out;
+}
+
+}  // namespace tcm_icp
