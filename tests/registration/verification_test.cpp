@@ -114,6 +114,18 @@ TEST(VerifyAlignment, NothingHeldOutIsNoEvidence) {
   }
 }
 
+TEST(VerifyAlignment, WithoutSlidesTheConsensusIsTheSame) {
+  VerificationOptions hasty = options();
+  hasty.with_slides = false;
+  const Isometry3d T(Eigen::Translation3d(0.01, 0.02, 0.05));
+  const auto full = verify_alignment(corner(10), level_of(corner(20)), T, options());
+  const auto brief = verify_alignment(corner(10), level_of(corner(20)), T, hasty);
+  EXPECT_EQ(brief.consensus(), full.consensus());
+  EXPECT_EQ(brief.median_residual_m, full.median_residual_m);
+  EXPECT_LT(full.left_after_slide[0], 1);
+  EXPECT_EQ(brief.left_after_slide[0], 1) << "not looked at";
+}
+
 TEST(VerificationOptions, RejectValuesOutOfRange) {
   EXPECT_NO_THROW(options().validate());
   const auto throws = [](auto change) {

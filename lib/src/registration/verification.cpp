@@ -83,6 +83,7 @@ AlignmentEvidence verify_alignment(const Cloud& held_out, const PyramidLevel& ta
   if (tally.agreeing == 0) return evidence;
   evidence.inlier_share = static_cast<double>(tally.agreeing) / static_cast<double>(tally.overlapping);
   evidence.median_residual_m = median(tally.residuals_m);
+  if (!options.with_slides) return evidence;
 
   const Eigen::SelfAdjointEigenSolver<Information> axes(tally.information);
   for (int k = 0; k < 6; ++k) {

@@ -25,8 +25,12 @@ struct AlignmentEvidence {
   /// Consensus of the best other pose found nearby (structure that repeats), by this pose's: 1 is a tie. 0 where none
   /// was found; NaN where none was looked for.
   double runner_up = std::numeric_limits<double>::quiet_NaN();
-  bool searched =
-      false;  ///< the pose came from a wide search, which meets more chance fits than a start near the guess
+  /// The pose came from a wide search, which meets more chance fits than a start near the guess.
+  bool searched = false;
+  /// What links to different neighbours, found without a guess, say of this pose: log-odds that it is right, those that
+  /// lead elsewhere counting against it. NaN where none was looked for.
+  double link_log_odds = std::numeric_limits<double>::quiet_NaN();
+  std::size_t num_links = 0;  ///< links that lead to this pose
 
   /// Share of all held-out points that agree.
   double consensus() const { return overlap * inlier_share; }
@@ -37,6 +41,7 @@ struct VerificationOptions {
   double tolerance_m = 0;            ///< [m] > 0; distance to the plane within the noise
   double slide_m = 0;                ///< [m] > 0; length of the trial slides
   double max_normal_angle_deg = 30;  ///< [deg]
+  bool with_slides = true;           ///< without, left_after_slide stays at 1, and a point costs one query
   void validate() const;             ///< throws InvalidOptions
 };
 
