@@ -28,12 +28,14 @@ po::options_description describe(Request& r) {
   SceneSetOptions& s = r.scenes;
   ScannerOptions& scanner = s.scanner;
   po::options_description what("What to simulate", 110);
-  what.add_options()("scene", bind_option(&r.scene), "the scene: town")                       //
-      ("scans", bind_option(&s.num_scans), "number of stations along the scene's path")       //
-      ("seed", bind_option(&r.context.seed), "the same seed gives the same bytes")            //
-      ("threads", bind_option(&r.context.num_threads), "changes the time, never the result")  //
-      ("out", po::value(&r.out)->required(), "folder to make: 000.ply ..., truth.json")       //
-      ("force", "replace an earlier result in that folder")                                   //
+  what.add_options()("scene", bind_option(&r.scene),
+                     "town, block (a closed loop) or street; each has defaults of its own")       //
+      ("scans", bind_option(&s.num_scans), "number of stations along the scene's path")           //
+      ("spacing", bind_option(&s.station_spacing_m), "[m] between stations of block and street")  //
+      ("seed", bind_option(&r.context.seed), "the same seed gives the same bytes")                //
+      ("threads", bind_option(&r.context.num_threads), "changes the time, never the result")      //
+      ("out", po::value(&r.out)->required(), "folder to make: 000.ply ..., truth.json")           //
+      ("force", "replace an earlier result in that folder")                                       //
       ("initial-guess", po::value(&r.initial_guess)->multitoken()->value_name("DEG METRES"),
        "also write initial_poses.json: the truth, off by 0.6 to 1 times this turn and shift; the first scan exact")  //
       ("help,h", "this text");
@@ -53,6 +55,17 @@ po::options_description describe(Request& r) {
   return what.add(sensor).add(frames);
 }
 
+/// What --scene asks for, before anything else is read: the other options' defaults depend on it.
+SceneKind asked_scene(const Arguments& arguments) {
+  std::string scene = scene_name(SceneKind::kTown);
+  po::options_description only_scene;
+  only_scene.add_options()("scene", po::value(&scene));
+  po::variables_map given;
+  po::store(po::command_line_parser(arguments).options(only_scene).allow_unregistered().run(), given);
+  po::notify(given);
+  return scene_kind_from_name(scene);
+}
+
 void print_summary(const SceneSet& set, std::ostream& out) {
   for (std::size_t i = 0; i < set.scans.size(); ++i) {
     double best_overlap = 0;
@@ -70,17 +83,18 @@ void print_summary(const SceneSet& set, std::ostream& out) {
 int cmd_simulate(const Arguments& arguments) {
   Request request;
   request.context.num_threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  request.scenes = default_scene_set(asked_scene(arguments));
+  request.scene = scene_name(request.scenes.scene);
   const po::options_description description = describe(request);
   po::variables_map given;
   po::store(po::command_line_parser(arguments).options(description).positional({}).run(), given);
   if (given.count("help") > 0) {
-    std::cout << "Usage: tcm-icp simulate --scene town --scans N --out DIR [--seed N] ...\n"
+    std::cout << "Usage: tcm-icp simulate --scene town|block|street --scans N --out DIR [--seed N] ...\n"
                  "LiDAR scans of a made-up scene, each in a frame of its own, with exact truth.\n\n"
               << description;
     return kSuccess;
   }
   po::notify(given);
-  request.scenes.scene = scene_kind_from_name(request.scene);
   if (!request.initial_guess.empty()) {
     if (request.initial_guess.size() != 2) throw InvalidOptions("--initial-guess needs two numbers: DEG METRES");
     request.scenes.initial_guess = PosePerturbation{request.initial_guess[0], request.initial_guess[1]};

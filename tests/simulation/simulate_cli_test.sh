@@ -33,6 +33,11 @@ same "$folder/a" "$folder/b"
 expect 0 '001.ply' simulate --out "$folder/a" --force
 [ ! -e "$folder/a/initial_poses.json" ] || failures=$((failures + 1))
 
+expect 0 '001.ply' simulate --out "$folder/street" --scene street
+expect 0 '001.ply' simulate --out "$folder/block" --scene=block --spacing 10
+if cmp -s "$folder/street/000.ply" "$folder/block/000.ply"; then failures=$((failures + 1)); fi
+expect 1 'station_spacing_m' simulate --out "$folder/c" --scene street --spacing 0
+
 mkdir "$folder/photos" && echo precious >"$folder/photos/picture"
 expect 4 'not an earlier result' simulate --out "$folder/photos" --force
 [ -e "$folder/photos/picture" ] || failures=$((failures + 1))

@@ -1,5 +1,6 @@
 #include "tcm_icp/evaluation/overlap.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 
 #include "tcm_icp/core/neighbor_index.hpp"
@@ -12,9 +13,15 @@ Eigen::MatrixXd overlap_matrix(const std::vector<Points>& clouds, int num_thread
   constexpr double kNearInSpacings = 3;
   std::vector<NeighborIndex> indices;
   std::vector<double> radii_m;
+  std::vector<Eigen::AlignedBox3d>
+      reaches;  // most pairs of a long street share nothing: no query is needed to see that
   for (const Points& points : clouds) {
     indices.emplace_back(points);
     radii_m.push_back(kNearInSpacings * median_spacing(points, indices.back()));
+    Eigen::AlignedBox3d& reach = reaches.emplace_back();
+    for (const auto& p : points) reach.extend(p);
+    reach.min().array() -= radii_m.back();
+    reach.max().array() += radii_m.back();
   }
   const std::size_t n = clouds.size();
   Eigen::MatrixXd overlap = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(n), static_cast<Eigen::Index>(n));
@@ -23,7 +30,7 @@ Eigen::MatrixXd overlap_matrix(const std::vector<Points>& clouds, int num_thread
       const std::size_t i = cell / n, j = cell % n;
       if (clouds[i].empty()) continue;
       const auto near = std::count_if(clouds[i].begin(), clouds[i].end(), [&](const Eigen::Vector3d& p) {
-        return indices[j].nearest_within(p, radii_m[j]).found();
+        return reaches[j].contains(p) && indices[j].nearest_within(p, radii_m[j]).found();
       });
       overlap(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
           static_cast<double>(near) / static_cast<double>(clouds[i].size());

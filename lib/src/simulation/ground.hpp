@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <array>
 
+#include "tcm_icp/core/cloud.hpp"
 #include "tcm_icp/core/random.hpp"
 #include "tcm_icp/simulation/triangle_mesh.hpp"
 
@@ -22,6 +23,9 @@ class Ground {
 
   /// Adds the square that reaches `reach_m` from the middle along x and y, in cells of a metre.
   void add_to(TriangleMesh& mesh, double reach_m) const;
+
+  /// Adds what lies within about `reach_m` of the points of a path, in cells of a metre.
+  void add_along(TriangleMesh& mesh, const Points& path, double reach_m) const;
 
  private:
   struct Wave {

@@ -67,15 +67,18 @@ Json truth_json(const SceneSet& set) {
                      {"pose", rows(set.truth.scans[i].T_world_scan.matrix())},
                      {"scanner", {scanner.x(), scanner.y(), scanner.z()}}});
   }
-  return {{"scene", scene_name(set.options.scene)},
-          {"source", "tcm-icp simulate"},
-          {"licence", "CC0-1.0"},
-          {"units", "m"},
-          {"seed", set.seed},
-          {"scanner_options", scanner_json(set.options.scanner)},
-          {"scans", scans},
-          {"tolerance", {{"rotation_deg", set.truth.tolerance.rotation_deg}, {"rmse_m", set.truth.tolerance.rmse_m}}},
-          {"overlap", rows(set.truth.overlap)}};
+  Json out = {{"scene", scene_name(set.options.scene)},
+              {"source", "tcm-icp simulate"},
+              {"licence", "CC0-1.0"},
+              {"units", "m"},
+              {"seed", set.seed}};
+  // The town's stations share out its street: their distance is no option.
+  if (set.options.scene != SceneKind::kTown) out["station_spacing_m"] = set.options.station_spacing_m;
+  out["scanner_options"] = scanner_json(set.options.scanner);
+  out["scans"] = scans;
+  out["tolerance"] = {{"rotation_deg", set.truth.tolerance.rotation_deg}, {"rmse_m", set.truth.tolerance.rmse_m}};
+  out["overlap"] = rows(set.truth.overlap);
+  return out;
 }
 
 Json initial_poses_json(const SceneSet& set) {

@@ -29,6 +29,24 @@ struct TownOptions {
 /// @throws InvalidOptions  if a field is out of bounds, or an object finds no room (which and how many is said)
 Scene make_town_scene(const TownOptions& options, Rng& rng);
 
+struct StreetOptions {
+  double length_m = 600;  ///< [m] 40..20000
+  void validate() const;  ///< throws InvalidOptions
+};
+
+/// A winding street between houses, terraces and gardens, no two of which are alike, with a second row behind them.
+/// @throws InvalidOptions
+Scene make_street_scene(const StreetOptions& options, Rng& rng);
+
+struct BlockOptions {
+  double perimeter_m = 240;  ///< [m] 120..20000, of the street's middle line
+  void validate() const;     ///< throws InvalidOptions
+};
+
+/// The same around an irregular block: the path ends where it began.
+/// @throws InvalidOptions
+Scene make_block_scene(const BlockOptions& options, Rng& rng);
+
 /// The point at `distance_m` along a polyline and the direction there [rad]; the ends where the distance is beyond
 /// them.
 struct PathPoint {

@@ -1,0 +1,70 @@
+// The middle lines of simulated streets: a winding one, and one around a block.
+
+#include <cmath>
+#include <string>
+
+#include "simulation/draw.hpp"
+#include "simulation/street_builder.hpp"
+#include "tcm_icp/core/error.hpp"
+#include "tcm_icp/simulation/scene.hpp"
+
+namespace tcm_icp {
+namespace {
+
+using Eigen::Vector3d;
+
+void require_length(const std::string& field, double value, double least) {
+  if (!(value >= least && value <= 20000)) {
+    throw InvalidOptions(field + " = " + std::to_string(value) + "; needs " + std::to_string(static_cast<int>(least)) +
+                         "..20000");
+  }
+}
+
+/// Chaikin's corner cutting: each corner becomes two of half the angle. The ends stay.
+Points with_cut_corners(const Points& path) {
+  Points out{path.front()};
+  for (std::size_t i = 0; i + 1 < path.size(); ++i) {
+    const Vector3d step = path[i + 1] - path[i];
+    if (i > 0) out.push_back(path[i] + 0.25 * step);
+    if (i + 2 < path.size()) out.push_back(path[i] + 0.75 * step);
+  }
+  out.push_back(path.back());
+  return out;
+}
+
+}  // namespace
+
+void StreetOptions::validate() const { require_length("street: length_m", length_m, 40); }
+
+void BlockOptions::validate() const { require_length("block: perimeter_m", perimeter_m, 120); }
+
+Scene make_street_scene(const StreetOptions& options, Rng& rng) {
+  options.validate();
+  // Headings stay within 25 degrees of the x axis: however long, the street never meets itself.
+  Points path{Vector3d::Zero()};
+  for (double left = options.length_m; left > 0;) {
+    const double heading = radians(uniform(rng, -25, 25));
+    double step = std::min(left, uniform(rng, 35, 80));
+    if (left - step < 20) step = left;
+    path.push_back(path.back() + step * Vector3d(std::cos(heading), std::sin(heading), 0));
+    left -= step;
+  }
+  return StreetBuilder(with_cut_corners(with_cut_corners(path)), rng).build();
+}
+
+Scene make_block_scene(const BlockOptions& options, Rng& rng) {
+  options.validate();
+  const double longer = options.perimeter_m * uniform(rng, 0.25, 0.29);
+  const double shorter = options.perimeter_m / 2 - longer;
+  const double bend = 0.04 * options.perimeter_m / 4;
+  Points path;
+  for (const auto& [x, y] : {std::pair(-1, -1), {0, -1}, {1, -1}, {1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}}) {
+    const double dx = uniform(rng, -bend, bend);
+    const double dy = uniform(rng, -bend, bend);
+    path.push_back({x * longer / 2 + dx, y * shorter / 2 + dy, 0});
+  }
+  path.push_back(path.front());
+  return StreetBuilder(path, rng).build();
+}
+
+}  // namespace tcm_icp
