@@ -79,10 +79,11 @@ auto* value(T& target) {
 // What decides how scans are sampled and compared, before any is placed.
 void add_comparison_options(ScanSetOptions& o, Choices& c, po::options_description& to) {
   to.add_options()("profile", value(c.profile), "robust: past the paper, verified; paper: to the letter")(
-      "init", value(o.initial_poses), "file of initial poses, as poses.json or truth.json has them")(
+      "init", value(o.initial_poses),
+      "file of initial poses, where there are any, as poses.json or truth.json has them")(
       "graph-threshold", value(o.pipeline.graph_threshold),
-      "correspondence measure below which two scans are connected; 0: from the data")("seed", value(o.seed),
-                                                                                      "seed of all random numbers")(
+      "correspondence measure below which two scans are connected, at initial poses; 0: from the data")(
+      "seed", value(o.seed), "seed of all random numbers")(
       "threads", value(o.threads), "threads; 0: all of the machine; the result is the same for any number");
 }
 
@@ -132,11 +133,14 @@ po::options_description configurable(RegisterOptions& o, Choices& c) {
       "refinement.points", value(p.refinement.points), "points the cost is taken over, and as many held out")(
       "descent.steps", value(p.refinement.descent_steps), "most steps of the descent")(
       "annealing.steps", value(p.refinement.annealing_steps), "steps of the annealing after the simplex")(
-      "annealing.search-steps", value(p.placement.search_steps), "steps of the search where the initial guess fails")(
+      "annealing.search-steps", value(p.placement.search_steps),
+      "steps of the search where the fit from an initial pose fails")(
       "annealing.initial-temperature", value(p.refinement.initial_temperature), "in units of the cost at the start")(
       "annealing.final-temperature", value(p.refinement.final_temperature),
-      "the same, at the end; cooling is geometric")("adjustment.steps", value(p.placement.adjustment_steps),
-                                                    "joint steps of all poses at the fine resolution; 0: none");
+      "the same, at the end; cooling is geometric")("adjustment.lp-steps", value(p.placement.adjustment_lp_steps),
+                                                    "joint linear programs over all poses; 0: none")(
+      "adjustment.steps", value(p.placement.adjustment_steps),
+      "joint least-squares steps of all poses after them; 0: none");
   main.add(outlier_options(p, c)).add(sampling_options(p)).add(placement);
   return main;
 }
@@ -241,9 +245,9 @@ void print_inspect_help(std::ostream& out) {
   InspectOptions o;
   Choices choices(o.pipeline);
   out << "Usage: tcm-icp inspect SCAN... [--json] [--init POSES.json] [OPTIONS]\n\n"
-         "What is known of scans before they are registered: counts, extents, spacing and noise; of two or more also "
-         "the\n"
-         "TCM of each pair and the correspondence graph with the reference scan it chooses, at the initial poses.\n\n"
+         "What is known of scans before they are registered: counts, extents, spacing and noise; of two or more also\n"
+         "the TCM of each pair and the correspondence graph with the reference scan it chooses, at the initial poses;\n"
+         "scans without one are taken as they lie.\n\n"
       << inspect_description(o, choices)
       << "\nExample: tcm-icp inspect datasets/town/*.ply --init datasets/town/initial_poses.json\n";
 }
@@ -253,11 +257,11 @@ void print_register_help(std::ostream& out) {
   Choices choices(o.pipeline);
   std::string config;
   out << "Usage: tcm-icp register SCAN... --out DIR [OPTIONS]\n\n"
-         "Puts overlapping LiDAR scans (.ply .xyz .txt .asc .pts .csv) into the frame of one of them. DIR receives\n"
-         "poses.json, transforms/, registered.ply and report.json. Lengths are in the unit of the scans.\n\n"
+         "Puts overlapping LiDAR scans (.ply .xyz .txt .asc .pts .csv), wherever each lies, into the frame of one of\n"
+         "them. DIR receives poses.json, transforms/, registered.ply and report.json. Lengths are in the unit of the\n"
+         "scans.\n\n"
       << command_line_only(o, config) << '\n'
-      << configurable(o, choices)
-      << "\nExample: tcm-icp register datasets/town/*.ply --init datasets/town/initial_poses.json --out out/town\n";
+      << configurable(o, choices) << "\nExample: tcm-icp register datasets/town/*.ply --out out/town\n";
 }
 
 void print_register_config(const RegisterOptions& options, std::ostream& out) {

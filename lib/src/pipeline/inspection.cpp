@@ -72,7 +72,7 @@ Inspection inspect_scans(const std::vector<std::filesystem::path>& paths, const 
   if (paths.size() < 2) return out;
 
   const Resolutions resolutions = choose_resolutions(sampled, options.sampling, context.num_threads);
-  const auto T_common_local = initial_local_poses(initial_poses, sampled);
+  const auto T_common_local = values_of(initial_local_poses(initial_poses, sampled, true));
   const auto scans = prepare_scans(sampled, resolutions, options.placement, context);
   ScanComparison& comparison = out.comparison.emplace();
   comparison.coarse_voxel_m = resolutions.coarse_m;

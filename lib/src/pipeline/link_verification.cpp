@@ -31,12 +31,17 @@ std::vector<LinkRecord> verify_links(const std::vector<PreparedScan>& scans, con
       const Eigen::Isometry3d T_a_b = T_reference_scan[a].inverse() * T_reference_scan[b];
       const PyramidLevel& level_a = scans[a].pyramid.level(0);
       const PyramidLevel& level_b = scans[b].pyramid.level(0);
-      const VerificationOptions options = verification_at(level_a.voxel_size_m);
-      const AlignmentEvidence b_in_a = verify_alignment(scans[b].held_out_sample, level_a, T_a_b, options);
-      const AlignmentEvidence a_in_b = verify_alignment(scans[a].held_out_sample, level_b, T_a_b.inverse(), options);
+      VerificationOptions options = verification_at(level_a.voxel_size_m);
+      // The direction that sees more of the other scan speaks for the link: only there is it worth the slides.
+      options.with_slides = false;
+      const double b_in_a = verify_alignment(scans[b].held_out_sample, level_a, T_a_b, options).overlap;
+      const double a_in_b = verify_alignment(scans[a].held_out_sample, level_b, T_a_b.inverse(), options).overlap;
+      options.with_slides = true;
       links[k].a = a;
       links[k].b = b;
-      links[k].evidence = b_in_a.overlap >= a_in_b.overlap ? b_in_a : a_in_b;
+      links[k].evidence = b_in_a >= a_in_b
+                              ? verify_alignment(scans[b].held_out_sample, level_a, T_a_b, options)
+                              : verify_alignment(scans[a].held_out_sample, level_b, T_a_b.inverse(), options);
       const Verdict verdict = judge(links[k].evidence);
       links[k].verdict = verdict.accepted ? "accepted" : "rejected";
       links[k].reason = verdict.reason;

@@ -12,15 +12,14 @@ void MergedCloud::add(const Cloud& cloud, const Eigen::Isometry3d& T_reference_s
   cloud_.normals.insert(cloud_.normals.end(), moved.normals.begin(), moved.normals.end());
 }
 
-void MergedCloud::thin() { cloud_ = voxel_downsample(cloud_, voxel_size_m_); }
-
 ScanPyramid MergedCloud::pyramid() {
-  thin();
-  return ScanPyramid(cloud_, voxel_size_m_, kNumPyramidLevels);
+  ScanPyramid pyramid(cloud_, voxel_size_m_, kNumPyramidLevels);
+  cloud_ = pyramid.level(0).cloud;
+  return pyramid;
 }
 
 PyramidLevel MergedCloud::level() {
-  thin();
+  cloud_ = voxel_downsample(cloud_, voxel_size_m_);
   return {voxel_size_m_, cloud_, NeighborIndex(cloud_.points)};
 }
 

@@ -22,8 +22,6 @@ class MergedCloud {
   PyramidLevel level();
 
  private:
-  void thin();
-
   double voxel_size_m_;
   Cloud cloud_;
 };

@@ -4,16 +4,15 @@
 #include <optional>
 #include <string>
 
-#include "adjustment.hpp"
+#include "adjusted_set.hpp"
 #include "link_verification.hpp"
-#include "merged_cloud.hpp"
-#include "placement.hpp"
+#include "merging.hpp"
+#include "pair_search.hpp"
 #include "scan_set.hpp"
 #include "stage_clock.hpp"
 #include "tcm_icp/core/error.hpp"
-#include "tcm_icp/core/parallel.hpp"
-#include "tcm_icp/tcm/merge_order.hpp"
-#include "verdict.hpp"
+#include "tcm_icp/core/rigid_transform.hpp"
+#include "uncertainty.hpp"
 
 namespace tcm_icp {
 namespace {
@@ -31,19 +30,17 @@ class Run {
       : options_(options), context_(context), clock_(result_.stages) {}
 
   PipelineResult operator()(const std::vector<std::filesystem::path>& paths, const InitialPoses& initial_poses) {
-    if (!options_.reference.empty()) asked_reference_ = find_scan(paths, options_.reference);
+    if (!options_.reference.empty()) result_.reference = find_scan(paths, options_.reference);
     clock_.begin("read and sample");
     read(paths);
     clock_.begin("prepare");
     prepare(initial_poses);
-    clock_.begin("graph");
-    build_graph();
-    clock_.begin("merge");
-    merge_scans();
-    clock_.begin("adjust and verify");
-    adjust_and_verify();
+    clock_.begin("link");
+    find_links();
+    merge_and_adjust();
     clock_.end();
     report_poses();
+    report_hypotheses();
     return std::move(result_);
   }
 
@@ -52,166 +49,177 @@ class Run {
 
   void read(const std::vector<std::filesystem::path>& paths) {
     sampled_ = read_scans(paths, options_, context_);
-    for (const auto& s : sampled_) result_.scans.push_back(summarize(s));
+    for (const auto& s : sampled_) {
+      result_.scans.push_back(summarize(s));
+      files_.push_back(s.scan.file);
+    }
   }
 
   void prepare(const InitialPoses& initial_poses) {
     resolutions_ = choose_resolutions(sampled_, options_.sampling, context_.num_threads);
     result_.coarse_voxel_m = resolutions_.coarse_m;
     result_.fine_voxel_m = resolutions_.fine_m;
-    T_init_ = initial_local_poses(initial_poses, sampled_);
+    T_init_ = initial_local_poses(initial_poses, sampled_, paper());
     scans_ = prepare_scans(sampled_, resolutions_, options_.placement, context_);
   }
 
-  void build_graph() {
-    result_.graph = compare_scans(scans_, T_init_, options_, context_);
-    result_.reference = asked_reference_.value_or(result_.graph.reference);
+  // Which scans lie near which: by their guesses, or by links found without any.
+  void find_links() {
+    const bool all_guessed = std::all_of(T_init_.begin(), T_init_.end(), [](const auto& T) { return bool(T); });
+    graph_ = PoseGraph(scans_.size());
+    if (all_guessed) {
+      result_.graph = compare_scans(scans_, values_of(T_init_), options_, context_);
+    } else {
+      pair_search_.emplace(scans_, files_, options_, context_);
+      // More is asked where links leave scans apart.
+      std::vector<bool> wanted(scans_.size(), true);
+      while (std::find(wanted.begin(), wanted.end(), true) != wanted.end() && pair_search_->extend(graph_, wanted)) {
+        wanted = graph_.outside_of_largest_group();
+      }
+      result_.graph = graph_.correspondence_graph(std::vector<bool>(scans_.size(), true));
+    }
+    if (options_.reference.empty()) result_.reference = result_.graph.reference;
     result_.graph.reference = result_.reference;
   }
 
-  void merge_scans() {
-    const std::size_t n = scans_.size(), reference = result_.reference;
-    T_reference_scan_.assign(n, Eigen::Isometry3d::Identity());
-    placed_.assign(n, false);
-    placed_[reference] = true;
-    MergedCloud merged(resolutions_.coarse_m);
-    merged.add(scans_[reference].pyramid.level(0).cloud, Eigen::Isometry3d::Identity());
-    ScanPyramid target = merged.pyramid();
-
-    std::vector<int> attempts(n, 0);
-    std::vector<std::size_t> tried_at(n, 0);  // size of S, in scans, at the last attempt
-    std::size_t num_merged = 1;
-    bool last_round = false;
+  // The reference's component first; then what is left, as long as some of it holds together.
+  void merge_and_adjust() {
+    const std::size_t n = scans_.size();
+    result_.evidence.assign(n, std::nullopt);
+    std::vector<bool> left(n, true);
+    std::size_t reference = result_.reference;
     while (true) {
-      std::vector<MergeCandidate> candidates;
-      for (std::size_t j = 0; j < n; ++j) {
-        // A scan that failed is tried again once S has grown.
-        if (!placed_[j] && tried_at[j] < num_merged && large_enough(j)) candidates.push_back({j, {}});
+      components_.push_back(build_component(reference, left));
+      const AdjustedSet& component = components_.back();
+      for (std::size_t i = 0; i < n; ++i) {
+        if (component.placed[i]) left[i] = false;
       }
-      if (candidates.empty()) {
-        // And at the end once more, since annealing draws other numbers each time; what it wins makes S grow.
-        if (last_round || paper() || num_merged == 1) break;
-        last_round = true;
-        std::fill(tried_at.begin(), tried_at.end(), 0);
-        continue;
-      }
-      context_.report("merging", num_merged, n);
-      compute_tcm(target, candidates);
-      const std::size_t q = next_scan_to_merge(candidates);
-      MergeRecord record;
-      record.scan = q;
-      record.attempt = ++attempts[q];
-      record.tcm =
-          std::find_if(candidates.begin(), candidates.end(), [&](const auto& c) { return c.scan == q; })->terms;
-      Rng rng = make_stream(context_.seed, "placement", sampled_[q].scan.file + "#" + std::to_string(record.attempt));
-      const Eigen::Isometry3d T_init = T_init_[reference].inverse() * T_init_[q];
-      const auto place = paper() ? place_scan_as_printed : place_scan;
-      const Eigen::Isometry3d T = place(scans_[q], target, T_init, options_, rng, record);
-      tried_at[q] = num_merged;
-      if (record.accepted) {
-        T_reference_scan_[q] = T;
-        placed_[q] = true;
-        merged.add(scans_[q].pyramid.level(0).cloud, T);
-        target = merged.pyramid();
-        ++num_merged;
-        last_round = false;
-      }
-      context_.debug(sampled_[q].scan.file + (record.accepted ? " merged: " : " set aside: ") + record.reason);
-      result_.merges.push_back(std::move(record));
-    }
-  }
-
-  /// The measures need two points at the least, and so does a fit.
-  bool large_enough(std::size_t scan) const {
-    return std::min(scans_[scan].tcm_points.size(), scans_[result_.reference].tcm_points.size()) >= 2;
-  }
-
-  void compute_tcm(const ScanPyramid& merged, std::vector<MergeCandidate>& candidates) const {
-    const std::size_t reference = result_.reference;
-    if (paper()) {
-      const TcmCloud s(merged.level(0).cloud.points);
-      for (auto& c : candidates) {
-        c.terms = tcm_terms(s, TcmCloud(scans_[c.scan].pyramid.level(0).cloud.points),
-                            T_init_[reference].inverse() * T_init_[c.scan]);
-      }
-      return;
-    }
-    const RobustTcmCloud s(merged.level(1).cloud.points, options_.tcm);
-    parallel_for(context_.num_threads, candidates.size(), [&](std::size_t begin, std::size_t end) {
-      for (std::size_t k = begin; k < end; ++k) {
-        const RobustTcmCloud cloud(scans_[candidates[k].scan].tcm_points, options_.tcm);
-        candidates[k].terms = robust_tcm_terms(s, cloud, T_init_[reference].inverse() * T_init_[candidates[k].scan]);
-      }
-    });
-  }
-
-  // Poses move together, then each is judged again against all its neighbours: what a merge let pass does not pass
-  // here. One scan at a time is taken out, the one that agrees least, because a wrong neighbour spoils the evidence of
-  // right ones.
-  void adjust_and_verify() {
-    result_.evidence.assign(scans_.size(), std::nullopt);
-    reasons_.assign(scans_.size(), "at the common resolution next to nothing is left of it, or of the reference");
-    for (const auto& m : result_.merges) {
-      result_.evidence[m.scan] = m.evidence;
-      reasons_[m.scan] = m.reason;
-    }
-    while (true) {
-      pairs_ = overlapping_pairs(scans_, T_reference_scan_, placed_, kMinLinkOverlap, context_.num_threads);
       if (paper()) break;
-      adjust_poses(scans_, pairs_, result_.reference, resolutions_, options_.placement, context_, T_reference_scan_);
-      const std::optional<std::size_t> worst = verify_placed();
-      if (!worst) break;
-      placed_[*worst] = false;
-      context_.debug(sampled_[*worst].scan.file + " taken out again: " + reasons_[*worst]);
+      const CorrespondenceGraph rest = graph_.correspondence_graph(left);
+      if (rest.degree(rest.reference) == 0) break;
+      reference = rest.reference;
     }
-    result_.links = verify_links(scans_, pairs_, T_reference_scan_, context_.num_threads);
+    choose_main_group();
   }
 
-  /// Fills in the evidence of all placed scans; returns the one that agrees least among those that fail.
-  std::optional<std::size_t> verify_placed() {
-    context_.report("verifying", 0, 1);
-    parallel_for(context_.num_threads, scans_.size(), [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) {
-        if (!placed_[i] || i == result_.reference) continue;
-        const AlignmentEvidence at_merge = *result_.evidence[i];
-        result_.evidence[i] = verify_against_neighbors(scans_, pairs_, i, T_reference_scan_);
-        result_.evidence[i]->runner_up = at_merge.runner_up;  // what the scan's placement found out stays true
-        result_.evidence[i]->searched = at_merge.searched;
-      }
-    });
-    std::optional<std::size_t> worst;
-    for (std::size_t i = 0; i < scans_.size(); ++i) {
-      if (!placed_[i] || i == result_.reference) continue;
-      const Verdict verdict = judge(*result_.evidence[i]);
-      reasons_[i] = verdict.reason;
-      if (verdict.accepted) continue;
-      if (!worst || result_.evidence[i]->consensus() < result_.evidence[*worst]->consensus()) worst = i;
+  // The largest group is what the user wants; a scan that links promised much of may hold little.
+  void choose_main_group() {
+    if (options_.reference.empty()) {
+      std::stable_sort(components_.begin(), components_.end(),
+                       [](const AdjustedSet& a, const AdjustedSet& b) { return a.num_placed() > b.num_placed(); });
     }
-    return worst;
+    result_.reference = result_.graph.reference = components_.front().reference;
+    result_.adjustment = components_.front().adjustment;
+    result_.uncertainty = components_.front().uncertainty;
+    for (const auto& set : components_) {
+      result_.links.insert(result_.links.end(), set.links.begin(), set.links.end());
+    }
+  }
+
+  AdjustedSet build_component(std::size_t reference, const std::vector<bool>& wanted) {
+    clock_.begin("merge");
+    const MergeInput input{scans_, files_, T_init_, graph_, options_, context_};
+    Merging merging(input, reference, wanted);
+    const std::size_t first = result_.merges.size();
+    merging.run(result_.merges);
+    // Scans that found no place may have links that were not tried yet.
+    while (pair_search_ && pair_search_->extend(graph_, merging.unplaced())) merging.run(result_.merges);
+    AdjustedSet set;
+    set.reference = reference;
+    set.placed = merging.placed();
+    set.T_reference_scan = merging.T_reference_scan();
+    set.evidence.assign(scans_.size(), std::nullopt);
+    set.reasons.assign(scans_.size(), "no link to another scan was found");
+    for (std::size_t k = first; k < result_.merges.size(); ++k) {
+      set.evidence[result_.merges[k].scan] = result_.merges[k].evidence;
+      set.reasons[result_.merges[k].scan] = result_.merges[k].reason;
+    }
+    if (paper()) {
+      set.pairs = overlapping_pairs(scans_, set.T_reference_scan, set.placed, kMinLinkOverlap, context_.num_threads);
+    } else {
+      clock_.begin("adjust and verify");
+      adjust_and_verify(scans_, graph_, resolutions_, options_, context_, set);
+    }
+    set.links = verify_links(scans_, set.pairs, set.T_reference_scan, context_.num_threads);
+    if (!paper()) {
+      measure_uncertainty(scans_, set.pairs, reference, resolutions_, set.T_reference_scan, context_.num_threads,
+                          set.uncertainty, set.links);
+    }
+    return set;
   }
 
   void report_poses() {
-    int component = 0;
-    const Eigen::Translation3d from_reference(sampled_[result_.reference].scan.origin);
     for (std::size_t i = 0; i < scans_.size(); ++i) {
+      const auto mine =
+          std::find_if(components_.begin(), components_.end(), [&](const AdjustedSet& set) { return set.placed[i]; });
+      const bool alone = mine == components_.end();
+      // What the reference's component says of a scan that nobody took is what counts.
+      const AdjustedSet& set = alone ? components_.front() : *mine;
       ScanPose pose;
-      pose.file = sampled_[i].scan.file;
-      pose.reason = reasons_[i];
+      pose.file = files_[i];
+      pose.reason = set.reasons[i];
+      result_.evidence[i] = set.evidence[i];
+      // Raw coordinates to the reference's raw coordinates: both local origins are put back.
+      const Eigen::Isometry3d T = Eigen::Translation3d(sampled_[set.reference].scan.origin) * set.T_reference_scan[i] *
+                                  Eigen::Translation3d(-sampled_[i].scan.origin);
       if (i == result_.reference) {
         pose.status = ScanStatus::kReference;
         pose.verdict = "accepted";
         pose.reason = "the reference";
-      } else if (placed_[i]) {
+      } else if (alone) {
+        pose.verdict = "rejected";
+      } else if (mine == components_.begin()) {
         pose.status = ScanStatus::kRegistered;
         pose.verdict = paper() ? "doubtful" : "accepted";
-        // Raw coordinates to the reference's raw coordinates: both local origins are put back.
-        pose.T_reference_scan = from_reference * T_reference_scan_[i] * Eigen::Translation3d(-sampled_[i].scan.origin);
+        pose.T_reference_scan = T;
       } else {
-        pose.status = ScanStatus::kUnregistered;
-        pose.component = ++component;
         pose.verdict = "rejected";
+        pose.pose_in_component = T;
+        pose.reason = i == set.reference ? "the reference of a group that does not hold together with the others"
+                                         : "belongs to the group of " + files_[set.reference] + ": " + pose.reason;
       }
       result_.poses.push_back(std::move(pose));
+    }
+    number_components();
+  }
+
+  // The reference's group is 0, other groups and single scans follow in the order of the files.
+  void number_components() {
+    std::vector<int> number(components_.size(), -1);
+    number[0] = 0;
+    int next = 1;
+    for (std::size_t i = 0; i < scans_.size(); ++i) {
+      std::size_t c = 0;
+      while (c < components_.size() && !components_[c].placed[i]) ++c;
+      if (c == components_.size() || components_[c].num_placed() == 1) {
+        if (i == result_.reference) continue;
+        result_.poses[i].component = next++;
+        result_.poses[i].pose_in_component.reset();
+        continue;
+      }
+      if (number[c] < 0) number[c] = next++;
+      result_.poses[i].component = number[c];
+    }
+  }
+
+  // Loops close over the final poses: what they contradict is named.
+  void report_hypotheses() {
+    const double same_m = kSameLinkPose * resolutions_.coarse_m;
+    for (const auto& [pair, link] : graph_.links()) {
+      const auto [a, b] = pair;
+      const auto both = std::find_if(components_.begin(), components_.end(),
+                                     [a = a, b = b](const AdjustedSet& set) { return set.placed[a] && set.placed[b]; });
+      for (const auto& h : link.hypotheses) {
+        LinkHypothesisRecord record{a, b, {}, h.candidate, h.evidence, h.log_odds, "open"};
+        record.T_a_b =
+            Eigen::Translation3d(sampled_[a].scan.origin) * h.T_a_b * Eigen::Translation3d(-sampled_[b].scan.origin);
+        if (both != components_.end()) {
+          const Eigen::Isometry3d T_a_b = both->T_reference_scan[a].inverse() * both->T_reference_scan[b];
+          const double apart_m = rms_displacement(T_a_b.inverse() * h.T_a_b, scans_[b].held_out_sample.points);
+          record.fate = apart_m < same_m ? "confirmed" : "contradicted";
+        }
+        result_.hypotheses.push_back(record);
+      }
     }
   }
 
@@ -220,14 +228,13 @@ class Run {
   PipelineResult result_;
   StageClock clock_;
   std::vector<SampledScan> sampled_;
-  std::optional<std::size_t> asked_reference_;
+  std::vector<std::string> files_;
   Resolutions resolutions_;
   std::vector<PreparedScan> scans_;
-  std::vector<Eigen::Isometry3d> T_init_;            // common frame of the initial poses <- local frame
-  std::vector<Eigen::Isometry3d> T_reference_scan_;  // local frames
-  std::vector<bool> placed_;
-  std::vector<std::string> reasons_;  // of each scan's status
-  ScanPairs pairs_;
+  InitialPoses T_init_;  // common frame of the initial poses <- local frame
+  PoseGraph graph_{0};
+  std::optional<PairSearch> pair_search_;
+  std::vector<AdjustedSet> components_;
 };
 
 }  // namespace

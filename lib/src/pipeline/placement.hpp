@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 
+#include "pose_graph.hpp"
 #include "prepared_scan.hpp"
 #include "tcm_icp/core/random.hpp"
 #include "tcm_icp/pipeline/pipeline_options.hpp"
@@ -19,6 +20,13 @@ namespace tcm_icp {
 /// a close runner-up makes the pose ambiguous.
 Eigen::Isometry3d place_scan(const PreparedScan& scan, const ScanPyramid& merged, const Eigen::Isometry3d& T_init,
                              const PipelineOptions& options, Rng& rng, MergeRecord& record);
+
+/// The same from poses that links lead to, in their order: the fits start near, from gates of 4 and 8 voxels; up to
+/// three of them are tried, fewer where one passes and the next ones' links say clearly less. No search beyond other
+/// poses nearby.
+Eigen::Isometry3d place_linked_scan(const PreparedScan& scan, const ScanPyramid& merged,
+                                    const std::vector<StartPose>& starts, const PipelineOptions& options, Rng& rng,
+                                    MergeRecord& record);
 
 /// The paper's way: simplex over all nearest neighbours in 12 entries, descent and annealing on tau, no verification.
 Eigen::Isometry3d place_scan_as_printed(const PreparedScan& scan, const ScanPyramid& merged,

@@ -4,14 +4,6 @@
 namespace tcm_icp {
 namespace {
 
-Json to_json(const LpFigures& lp) {
-  return {{"programs", lp.num_programs},
-          {"pivots", lp.num_pivots},
-          {"last_objective_m", number(lp.objective)},
-          {"largest_relative_duality_gap", number(lp.relative_duality_gap)},
-          {"seconds", lp.seconds}};
-}
-
 Json to_json(const RefinementTrace& t) {
   return {{"steps", t.num_steps},
           {"accepted_steps", t.num_accepted},
@@ -31,7 +23,9 @@ Json to_json(const AlignmentEvidence& e) {
           {"slide_m", e.slide_m},
           {"left_after_slide", e.left_after_slide},
           {"runner_up", number(e.runner_up)},
-          {"searched", e.searched}};
+          {"searched", e.searched},
+          {"links", e.num_links},
+          {"link_log_odds", number(e.link_log_odds)}};
 }
 
 Json to_json(const RegistrationResult& r) {
@@ -75,6 +69,7 @@ Json options_json(const PipelineOptions& o, const RunContext& context) {
           {"fine_points", o.placement.fine_points},
           {"held_out_points", o.placement.held_out_points},
           {"search_steps", o.placement.search_steps},
+          {"adjustment_lp_steps", o.placement.adjustment_lp_steps},
           {"adjustment_steps", o.placement.adjustment_steps},
           {"descent_steps", o.refinement.descent_steps},
           {"annealing_steps", o.refinement.annealing_steps},
@@ -106,16 +101,21 @@ std::string report_json(const PipelineResult& result, const PipelineOptions& opt
               {"options", options_json(options, context)},
               {"coarse_voxel_m", result.coarse_voxel_m},
               {"fine_voxel_m", result.fine_voxel_m}};
+  const Eigen::Vector3d& origin = result.scans[result.reference].origin;
   for (const auto& s : result.scans) report["scans"].push_back(to_json(s));
   for (std::size_t i = 0; i < result.poses.size(); ++i) {
     report["scans"][i]["status"] = name_of(result.poses[i].status);
     report["scans"][i]["verdict"] = result.poses[i].verdict;
     report["scans"][i]["reason"] = result.poses[i].reason;
     report["scans"][i]["evidence"] = result.evidence[i] ? to_json(*result.evidence[i]) : Json(nullptr);
+    if (!result.uncertainty.poses.empty()) {
+      report["scans"][i]["uncertainty"] = to_json(result.uncertainty.poses[i], origin);
+    }
   }
   report["graph"] = to_json(result.graph, result.reference, result.scans);
   report["merges"] = Json::array();
   for (const auto& m : result.merges) report["merges"].push_back(to_json(m, result));
+  report["adjustment"] = adjustment_json(result);
   report["links"] = Json::array();
   for (const auto& l : result.links) {
     report["links"].push_back({{"a", result.scans[l.a].file},
@@ -123,6 +123,20 @@ std::string report_json(const PipelineResult& result, const PipelineOptions& opt
                                {"verdict", l.verdict},
                                {"reason", l.reason},
                                {"evidence", to_json(l.evidence)}});
+    if (l.strength) report["links"].back()["strength"] = to_json(*l.strength, origin);
+  }
+  report["hypotheses"] = Json::array();
+  for (const auto& h : result.hypotheses) {
+    report["hypotheses"].push_back(
+        {{"a", result.scans[h.a].file},
+         {"b", result.scans[h.b].file},
+         {"pose_of_b_in_a", to_json(Eigen::MatrixXd(h.T_a_b.matrix()))},
+         {"method", h.candidate.method == CoarseMethod::kFeatures ? "features" : "height map"},
+         {"coarse_score", number(h.candidate.score)},
+         {"coarse_margin", number(h.candidate.margin)},
+         {"log_odds", h.log_odds},
+         {"fate", h.fate},
+         {"evidence", to_json(h.evidence)}});
   }
   for (const auto& s : result.stages) {
     report["stages"].push_back({{"name", s.name}, {"seconds", s.seconds}, {"peak_memory_mb", s.peak_memory_mb}});

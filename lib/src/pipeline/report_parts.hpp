@@ -21,6 +21,13 @@ Json to_json(const Eigen::MatrixXd& matrix);
 
 const char* name_of(OutlierMethod method);
 Json to_json(const ScanSummary& scan);
+Json to_json(const LpFigures& lp);
 Json to_json(const CorrespondenceGraph& graph, std::size_t reference, const std::vector<ScanSummary>& scans);
+
+/// The joint adjustment and what limits its poses.
+Json adjustment_json(const PipelineResult& result);
+/// Null where the pose is not determined. `origin` is added to positions.
+Json to_json(const PoseUncertainty& pose, const Eigen::Vector3d& origin);
+Json to_json(const LinkStrength& strength, const Eigen::Vector3d& origin);
 
 }  // namespace tcm_icp

@@ -87,14 +87,20 @@ std::vector<PreparedScan> prepare_scans(std::vector<SampledScan>& scans, const R
   return out;
 }
 
-std::vector<Eigen::Isometry3d> initial_local_poses(const InitialPoses& initial_poses,
-                                                   const std::vector<SampledScan>& scans) {
-  std::vector<Eigen::Isometry3d> poses;
+InitialPoses initial_local_poses(const InitialPoses& initial_poses, const std::vector<SampledScan>& scans,
+                                 bool as_they_lie) {
+  InitialPoses poses(scans.size());
   for (std::size_t i = 0; i < scans.size(); ++i) {
-    poses.push_back(initial_poses[i].value_or(Eigen::Isometry3d::Identity()) *
-                    Eigen::Translation3d(scans[i].scan.origin));
+    if (!initial_poses[i] && !as_they_lie) continue;
+    poses[i] = initial_poses[i].value_or(Eigen::Isometry3d::Identity()) * Eigen::Translation3d(scans[i].scan.origin);
   }
   return poses;
+}
+
+std::vector<Eigen::Isometry3d> values_of(const InitialPoses& poses) {
+  std::vector<Eigen::Isometry3d> values;
+  for (const auto& pose : poses) values.push_back(pose.value());
+  return values;
 }
 
 CorrespondenceGraph compare_scans(const std::vector<PreparedScan>& scans,

@@ -32,12 +32,16 @@ ScanSummary summarize(const SampledScan& scan);
 std::vector<PreparedScan> prepare_scans(std::vector<SampledScan>& scans, const Resolutions& resolutions,
                                         const PlacementOptions& options, const RunContext& context);
 
-/// For each scan T_common_local: initial pose (identity where there is none) times the shift to the raw coordinates.
-std::vector<Eigen::Isometry3d> initial_local_poses(const InitialPoses& initial_poses,
-                                                   const std::vector<SampledScan>& scans);
+/// For each scan T_common_local: initial pose times the shift to the raw coordinates. Where there is none: nothing, or,
+/// `as_they_lie`, the identity times that shift.
+InitialPoses initial_local_poses(const InitialPoses& initial_poses, const std::vector<SampledScan>& scans,
+                                 bool as_they_lie);
+
+/// The poses of a set in which every scan has one.
+std::vector<Eigen::Isometry3d> values_of(const InitialPoses& poses);
 
 /// correspondence() for every pair in the frames of the initial poses, and the reference it picks. Reports "comparing".
-/// @param T_common_local  as initial_local_poses() gives them
+/// @param T_common_local  local frames into a common one
 /// @throws Cancelled
 CorrespondenceGraph compare_scans(const std::vector<PreparedScan>& scans,
                                   const std::vector<Eigen::Isometry3d>& T_common_local, const PipelineOptions& options,

@@ -1,5 +1,6 @@
 #include "verdict.hpp"
 
+#include <cmath>
 #include <cstdio>
 #include <string>
 
@@ -47,7 +48,11 @@ Verdict judge(const AlignmentEvidence& evidence) {
   if (evidence.runner_up > kMaxRunnerUp) {
     return {false, "ambiguous: another pose nearby has " + percent(evidence.runner_up) + " of the agreement"};
   }
-  const bool strict = evidence.searched && evidence.overlap < kMinOverlapSearched;
+  if (evidence.link_log_odds < kMinLinkLogOdds) {
+    return {false, "links to its neighbours contradict one another, or none stands out"};
+  }
+  const bool linked = !std::isnan(evidence.link_log_odds);
+  const bool strict = evidence.searched && !linked && evidence.overlap < kMinOverlapSearched;
   const double max_left = strict ? kMaxLeftAfterSlideSearched : kMaxLeftAfterSlide;
   if (evidence.left_after_slide[0] > max_left) {
     return {false, "ambiguous: moved along its weakest direction, it still agrees at " +

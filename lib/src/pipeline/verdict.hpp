@@ -7,6 +7,9 @@
 
 namespace tcm_icp {
 
+/// Least log-odds of a pose by its links, where it was found without a guess: 20 to 1, before what S says of it.
+constexpr double kMinLinkLogOdds = 3;
+
 /// Verification of a pose at resolution `voxel_m`: overlap within two voxels, agreement within a quarter of one, slides
 /// of four. All follow from the resolution, which follows from the data.
 VerificationOptions verification_at(double voxel_m);

@@ -21,10 +21,9 @@ class Pipeline {
   explicit Pipeline(PipelineOptions options);
 
   /// Registers the scans. Raw points stream by once; memory follows the working clouds.
-  /// @param initial_poses  one a scan; where none is given the scan is taken as it lies
-  /// @throws InputError, InvalidInput  a file that cannot be read, fewer than two scans, the same file twice, fewer
-  /// than
-  ///                                   three points or all points equal
+  /// @param initial_poses  one a scan; a scan without one is found by its links, or taken as it lies (paper profile)
+  /// @throws InputError, InvalidInput  a file that cannot be read, fewer than two scans, the same file twice,
+  ///                                   fewer than three points or all points equal
   /// @throws InvalidOptions            a reference that is no scan
   /// @throws Cancelled                 the context's on_progress asked for it
   PipelineResult run(const std::vector<std::filesystem::path>& paths, const InitialPoses& initial_poses,

@@ -28,12 +28,13 @@ struct SamplingOptions {
 
 /// Placing one scan against what is merged.
 struct PlacementOptions {
-  int coarse_points = 1500;    ///< >= 100; points of a scan in its coarse linear programs
-  int fine_points = 3000;      ///< >= 100; and in the finer ones
-  int held_out_points = 1500;  ///< >= 100; points kept from every fit, for verification
-  int search_steps = 1500;     ///< >= 0; annealing steps where the fit from the initial guess fails verification
-  int adjustment_steps = 10;   ///< >= 0; Gauss-Newton steps over all poses at once, at the fine resolution
-  void validate() const;       ///< throws InvalidOptions
+  int coarse_points = 1500;     ///< >= 100; points of a scan in its coarse linear programs
+  int fine_points = 3000;       ///< >= 100; and in the finer ones
+  int held_out_points = 1500;   ///< >= 100; points kept from every fit, for verification
+  int search_steps = 1500;      ///< >= 0; annealing steps where the fit from the initial guess fails verification
+  int adjustment_lp_steps = 2;  ///< >= 0; linear programs over all poses at once, at the fine resolution
+  int adjustment_steps = 10;    ///< >= 0; Gauss-Newton steps over all poses at once, after the programs
+  void validate() const;        ///< throws InvalidOptions
 };
 
 /// Refinement after the simplex. Lengths are in units of the noise found by the fit.

@@ -5,11 +5,16 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "tcm_icp/coarse/pose_candidate.hpp"
 #include "tcm_icp/graph/correspondence_graph.hpp"
 #include "tcm_icp/io/pose_io.hpp"
 #include "tcm_icp/outliers/outlier_removal.hpp"
+#include "tcm_icp/registration/linear_program.hpp"
+#include "tcm_icp/registration/link_strength.hpp"
+#include "tcm_icp/registration/pose_covariance.hpp"
 #include "tcm_icp/registration/refinement.hpp"
 #include "tcm_icp/registration/registration_result.hpp"
 #include "tcm_icp/registration/verification.hpp"
@@ -34,13 +39,13 @@ struct ScanSummary {
 /// One attempt to merge a scan into S.
 struct MergeRecord {
   std::size_t scan = 0;
-  int attempt = 1;  ///< a scan that fails is tried again when S has grown
+  int attempt = 1;  ///< a scan that fails is tried again when S, or what links it to S, has grown
   TcmTerms tcm;     ///< against S, before the simplex
   RegistrationResult simplex;
   std::optional<RefinementTrace> descent;
   std::optional<RefinementTrace> annealing;
   std::optional<AlignmentEvidence> evidence;  ///< robust profile only
-  bool searched = false;                      ///< annealing from the initial guess was needed
+  bool searched = false;                      ///< annealing from the initial guess was needed, or links were followed
   bool accepted = false;
   std::string reason;
 };
@@ -50,6 +55,29 @@ struct LinkRecord {
   std::size_t a = 0, b = 0;    ///< a < b
   AlignmentEvidence evidence;  ///< of the direction that overlaps more
   std::string verdict, reason;
+  std::optional<LinkStrength> strength;  ///< in the reference's local frame; robust profile only
+};
+
+/// The last joint adjustment of a run.
+struct AdjustmentRecord {
+  LpFigures lp;                            ///< of the joint linear programs
+  LpStatus lp_status = LpStatus::kNotRun;  ///< of the last
+  std::size_t num_lp_matches = 0;          ///< of the last
+  double lp_rms_move_m = 0;                ///< [m] of the scans, in the last that was solved
+  int num_steps = 0;                       ///< of the least squares that follow
+  double rms_move_m = 0;                   ///< [m] of the scans, in the last of them
+  std::vector<std::pair<std::size_t, std::size_t>>
+      outlying_pairs;  ///< fit far worse than the others, see outlying_links
+};
+
+/// A pose that a pair may have, found without a guess, and what became of it.
+struct LinkHypothesisRecord {
+  std::size_t a = 0, b = 0;                                 ///< a < b
+  Eigen::Isometry3d T_a_b = Eigen::Isometry3d::Identity();  ///< for raw coordinates
+  PoseCandidate candidate;                                  ///< the coarse pose it came from; local frames
+  AlignmentEvidence evidence;                               ///< of the pair alone
+  double log_odds = 0;                                      ///< that it is right, by the pair alone
+  std::string fate;  ///< confirmed or contradicted by the final poses; open where no group has both scans
 };
 
 struct StageRecord {
@@ -67,7 +95,10 @@ struct PipelineResult {
   std::vector<std::optional<AlignmentEvidence>> evidence;
   CorrespondenceGraph graph;
   std::vector<MergeRecord> merges;
+  AdjustmentRecord adjustment;   ///< of the reference's group; robust profile only
+  JointUncertainty uncertainty;  ///< of the same, in the reference's local frame; no poses in the paper profile
   std::vector<LinkRecord> links;
+  std::vector<LinkHypothesisRecord> hypotheses;  ///< none where all scans had guesses
   std::vector<StageRecord> stages;
   double coarse_voxel_m = 0;  ///< [m] resolution scans were placed with
   double fine_voxel_m = 0;    ///< [m] resolution they were adjusted with

@@ -1,0 +1,41 @@
+#pragma once
+// Scans that were merged, moved together and judged again: what a merge let pass may not pass here.
+
+#include <Eigen/Geometry>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "adjustment.hpp"
+#include "pose_graph.hpp"
+#include "prepared_scan.hpp"
+#include "tcm_icp/core/run_context.hpp"
+#include "tcm_icp/pipeline/pipeline_options.hpp"
+#include "tcm_icp/pipeline/pipeline_result.hpp"
+
+namespace tcm_icp {
+
+/// One entry a scan of the whole set, members or not.
+struct AdjustedSet {
+  std::size_t reference = 0;
+  std::vector<bool> placed;
+  std::vector<Eigen::Isometry3d> T_reference_scan;  ///< local frames
+  std::vector<std::optional<AlignmentEvidence>> evidence;
+  std::vector<std::string> reasons;
+  ScanPairs pairs;                ///< of members that overlap
+  AdjustmentRecord adjustment;    ///< the last
+  std::vector<LinkRecord> links;  ///< one for each of `pairs`
+  JointUncertainty uncertainty;   ///< in the reference's local frame
+
+  std::size_t num_placed() const;
+};
+
+/// Adjusts all poses jointly, then judges each against all its neighbours, and takes out one scan at a time, the one
+/// whose links speak least for it (or, without links, that agrees least), because a wrong neighbour spoils the evidence
+/// of right ones; again until all pass. What the
+/// merges found out about other poses (runner_up, searched) stays true: `set.evidence` brings it.
+void adjust_and_verify(const std::vector<PreparedScan>& scans, const PoseGraph& graph, const Resolutions& resolutions,
+                       const PipelineOptions& options, const RunContext& context, AdjustedSet& set);
+
+}  // namespace tcm_icp

@@ -1,0 +1,69 @@
+#include "joint_matches.hpp"
+
+#include <numbers>
+
+#include "tcm_icp/core/parallel.hpp"
+
+namespace tcm_icp {
+namespace {
+
+constexpr std::size_t kSharesOfSample = 3;  // each neighbour sees a third of a scan's points, not the same third
+constexpr double kNormalAngle = std::numbers::pi / 6;
+
+Cloud share_of(const Cloud& cloud, std::size_t which) {
+  Cloud out;
+  for (std::size_t i = which % kSharesOfSample; i < cloud.size(); i += kSharesOfSample) {
+    out.points.push_back(cloud.points[i]);
+    out.normals.push_back(cloud.normals[i]);
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<JointLink> match_pairs(const std::vector<PreparedScan>& scans, const ScanPairs& pairs,
+                                   const std::vector<Eigen::Isometry3d>& T_reference_scan, double max_distance_m,
+                                   int num_threads) {
+  std::vector<JointLink> links;
+  for (const auto& [a, b] : pairs) {
+    links.push_back({a, b, {}});
+    links.push_back({b, a, {}});
+  }
+  const CorrespondenceGate gate{max_distance_m, kNormalAngle};
+  parallel_for(num_threads, links.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      JointLink& link = links[k];
+      const Eigen::Isometry3d& T = T_reference_scan[link.target];
+      link.matches = find_correspondences(share_of(scans[link.source].fine_sample, scans[link.target].share),
+                                          T.inverse() * T_reference_scan[link.source], scans[link.target].fine, gate);
+      for (auto& m : link.matches) {
+        m.source = T * m.source;
+        m.target = T * m.target;
+        m.normal = T.linear() * m.normal;
+      }
+    }
+  });
+  return links;
+}
+
+std::vector<TwistFrame> scan_frames(const std::vector<PreparedScan>& scans,
+                                    const std::vector<Eigen::Isometry3d>& T_reference_scan) {
+  std::vector<TwistFrame> frames;
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    const Points& points = scans[i].fine_sample.points;
+    frames.push_back(points.empty() ? TwistFrame() : twist_frame(points, T_reference_scan[i]));
+  }
+  return frames;
+}
+
+std::vector<JointLink> thinned(std::vector<JointLink> links, std::size_t max_matches) {
+  for (auto& link : links) {
+    const std::size_t n = link.matches.size();
+    if (n <= max_matches) continue;
+    for (std::size_t i = 0; i < max_matches; ++i) link.matches[i] = link.matches[i * n / max_matches];
+    link.matches.resize(max_matches);
+  }
+  return links;
+}
+
+}  // namespace tcm_icp

@@ -1,0 +1,31 @@
+#pragma once
+// Matches over all pairs of scans, for what looks at all poses at once.
+
+#include <Eigen/Geometry>
+#include <utility>
+#include <vector>
+
+#include "prepared_scan.hpp"
+#include "tcm_icp/registration/joint_links.hpp"
+
+namespace tcm_icp {
+
+/// Gate of a match in voxels of the resolution it is looked for at.
+constexpr double kGateInVoxels = 2;
+
+using ScanPairs = std::vector<std::pair<std::size_t, std::size_t>>;
+
+/// Both directions of every pair at the fine resolution, in the pairs' order; points of a third of the source's sample,
+/// another third for each target. One nearest-neighbour query a point.
+std::vector<JointLink> match_pairs(const std::vector<PreparedScan>& scans, const ScanPairs& pairs,
+                                   const std::vector<Eigen::Isometry3d>& T_reference_scan, double max_distance_m,
+                                   int num_threads);
+
+/// Rotations are taken about each scan's middle, by the arc at its radius.
+std::vector<TwistFrame> scan_frames(const std::vector<PreparedScan>& scans,
+                                    const std::vector<Eigen::Isometry3d>& T_reference_scan);
+
+/// At most `max_matches` of each link, evenly spaced in their order.
+std::vector<JointLink> thinned(std::vector<JointLink> links, std::size_t max_matches);
+
+}  // namespace tcm_icp

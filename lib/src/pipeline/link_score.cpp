@@ -1,0 +1,32 @@
+#include "link_score.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tcm_icp {
+namespace {
+
+// Shares, margins and residuals beyond these say no more. A margin is infinite where no other pose was found.
+constexpr double kLeastShare = 0.01, kLeastResidual = 0.001, kMostLeft = 2;
+constexpr double kLeastMargin = 0.1, kMostMargin = 10;
+
+double log_of(double value, double least) { return std::log(std::max(value, least)); }
+
+}  // namespace
+
+double link_log_odds(const AlignmentEvidence& evidence, const PoseCandidate& candidate, double voxel_m) {
+  double mean_left = 0;
+  for (const double left : evidence.left_after_slide) mean_left += left / 6;
+  const double margin = log_of(std::min(candidate.margin, kMostMargin), kLeastMargin);
+  const double coarse = candidate.method == CoarseMethod::kFeatures ? -1.24 + 1.96 * margin : 4.36 * margin;
+  return 8.13 + 3.70 * log_of(evidence.overlap, kLeastShare) + 2.67 * log_of(evidence.inlier_share, kLeastShare) -
+         4.95 * std::min(evidence.left_after_slide[0], kMostLeft) - 6.42 * std::min(mean_left, kMostLeft) -
+         2.77 * log_of(evidence.median_residual_m / voxel_m, kLeastResidual) + coarse;
+}
+
+double rival_log_odds(double consensus, double rival_consensus) {
+  constexpr double kLeastConsensus = 0.001;
+  return 3 * std::min(0.0, log_of(consensus, kLeastConsensus) - log_of(rival_consensus, kLeastConsensus));
+}
+
+}  // namespace tcm_icp

@@ -1,0 +1,24 @@
+#pragma once
+// How likely one link is right, from the evidence of the pair alone.
+
+#include "tcm_icp/coarse/pose_candidate.hpp"
+#include "tcm_icp/registration/verification.hpp"
+
+namespace tcm_icp {
+
+/// Logarithm of the odds that a pose is right: a logistic model of how much overlaps, how much of that agrees and how
+/// closely, how much is lost when the pose slides, and how far the coarse pose stood out from others
+/// (docs/decisions/0011-link-score.md says what it was fitted to, and how it did elsewhere). 0 is a coin toss. Finite.
+double link_log_odds(const AlignmentEvidence& evidence, const PoseCandidate& candidate, double voxel_m);
+
+/// What a hypothesis loses to a rival of its pair, a clearly different pose with more consensus: 0 or less. Rivals are
+/// looked at by the same points, so their consensus tells them apart better than where they came from.
+double rival_log_odds(double consensus, double rival_consensus);
+
+/// Links above this stand by themselves.
+constexpr double kClearLogOdds = 3;
+
+/// Links speak against a pose by what they exceed this: chance alone often makes a pose that looks a little likely.
+constexpr double kDoubtLogOdds = 1;
+
+}  // namespace tcm_icp

@@ -1,0 +1,158 @@
+#include "merging.hpp"
+
+#include <algorithm>
+
+#include "placement.hpp"
+#include "tcm_icp/core/parallel.hpp"
+
+namespace tcm_icp {
+namespace {
+
+/// The measures need two points at the least, and so does a fit.
+constexpr std::size_t kMinPoints = 2;
+/// Scans whose links say so much go first: what is merged wrongly misleads all that follow.
+constexpr double kStrongLogOdds = 6;
+
+}  // namespace
+
+Merging::Merging(const MergeInput& input, std::size_t reference, std::vector<bool> wanted)
+    : in_(input),
+      reference_(reference),
+      wanted_(std::move(wanted)),
+      placed_(input.scans.size(), false),
+      T_reference_scan_(input.scans.size(), Eigen::Isometry3d::Identity()),
+      tried_with_(input.scans.size(), 0),
+      attempts_(input.scans.size(), 0),
+      merged_(input.scans[reference].pyramid.level(0).voxel_size_m),
+      target_((merged_.add(input.scans[reference].pyramid.level(0).cloud, Eigen::Isometry3d::Identity()),
+               merged_.pyramid())),
+      tcm_clouds_(input.scans.size()) {
+  placed_[reference] = true;
+}
+
+void Merging::run(std::vector<MergeRecord>& records) {
+  bool last_round = false;
+  while (true) {
+    // Weaker links are worth a trial when no other is left: S may show what a pair could not.
+    std::vector<Choice> open = choices(false);
+    if (open.empty()) open = choices(true);
+    if (open.empty()) {
+      // Guessed scans have one more trial at the end, since annealing draws other numbers each time.
+      const bool any_guess = std::any_of(in_.T_init.begin(), in_.T_init.end(), [](const auto& T) { return bool(T); });
+      if (last_round || in_.options.profile == Profile::kPaper || num_merged_ == 1 || !any_guess) break;
+      last_round = true;
+      for (std::size_t i = 0; i < tried_with_.size(); ++i) {
+        if (in_.T_init[i]) tried_with_[i] = 0;
+      }
+      continue;
+    }
+    in_.context.report("merging", num_merged_, in_.scans.size());
+    std::vector<MergeCandidate> candidates;
+    for (const auto& choice : open) candidates.push_back({choice.scan, {}});
+    compute_tcm(open, candidates);
+    const std::size_t q = next_scan_to_merge(candidates);
+    const std::size_t before = num_merged_;
+    for (std::size_t k = 0; k < open.size(); ++k) {
+      if (open[k].scan == q) merge(open[k], candidates[k].terms, records);
+    }
+    if (num_merged_ > before) last_round = false;
+  }
+}
+
+std::vector<bool> Merging::unplaced() const {
+  std::vector<bool> out(wanted_.size());
+  for (std::size_t i = 0; i < out.size(); ++i) out[i] = wanted_[i] && !placed_[i];
+  return out;
+}
+
+Eigen::Isometry3d Merging::guess(std::size_t scan) const {
+  return in_.T_init[reference_].value_or(Eigen::Isometry3d::Identity()).inverse() *
+         in_.T_init[scan].value_or(Eigen::Isometry3d::Identity());
+}
+
+std::vector<Merging::Choice> Merging::choices(bool with_weak_links) {
+  std::vector<Choice> out;
+  const bool paper = in_.options.profile == Profile::kPaper;
+  for (std::size_t j = 0; j < in_.scans.size(); ++j) {
+    if (!wanted_[j] || placed_[j]) continue;
+    if (std::min(in_.scans[j].tcm_points.size(), in_.scans[reference_].tcm_points.size()) < kMinPoints) continue;
+    if (paper || (in_.T_init[j] && in_.T_init[reference_])) {
+      // Its guess, tried again once S has grown.
+      if (tried_with_[j] < num_merged_) out.push_back({j, {{guess(j), 0, 0}}});
+      continue;
+    }
+    std::vector<StartPose> starts =
+        in_.graph.start_poses(j, placed_, T_reference_scan_, in_.scans[j].held_out_sample.points, same_m());
+    const double least = with_weak_links ? kMinLinkLogOdds : kStrongLogOdds;
+    if (starts.empty() || starts.front().log_odds < least) continue;
+    const std::size_t num_hypotheses = in_.graph.num_hypotheses(j, placed_);
+    if (tried_with_[j] < num_hypotheses) out.push_back({j, std::move(starts)});
+  }
+  return out;
+}
+
+void Merging::compute_tcm(const std::vector<Choice>& choices, std::vector<MergeCandidate>& candidates) {
+  if (in_.options.profile == Profile::kPaper) {
+    const TcmCloud s(target_.level(0).cloud.points);
+    for (std::size_t k = 0; k < choices.size(); ++k) {
+      candidates[k].terms = tcm_terms(s, TcmCloud(in_.scans[choices[k].scan].pyramid.level(0).cloud.points),
+                                      choices[k].starts.front().T_reference_scan);
+    }
+    return;
+  }
+  // A choice is a scan, each scan once: no two threads fill in the same cloud.
+  if (!merged_tcm_cloud_) merged_tcm_cloud_.emplace(target_.level(1).cloud.points, in_.options.tcm);
+  parallel_for(in_.context.num_threads, candidates.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      std::optional<RobustTcmCloud>& cloud = tcm_clouds_[choices[k].scan];
+      if (!cloud) cloud.emplace(in_.scans[choices[k].scan].tcm_points, in_.options.tcm);
+      candidates[k].terms = robust_tcm_terms(*merged_tcm_cloud_, *cloud, choices[k].starts.front().T_reference_scan);
+    }
+  });
+}
+
+// The fit, or a better pose nearby, may have left what the links lead to.
+void Merging::ask_links(std::size_t scan, const Eigen::Isometry3d& T, MergeRecord& record) {
+  if (!record.evidence) return;
+  T_reference_scan_[scan] = T;
+  const StartPose support =
+      in_.graph.support(scan, placed_, T_reference_scan_, in_.scans[scan].held_out_sample.points, same_m());
+  record.evidence->link_log_odds = support.log_odds;
+  record.evidence->num_links = support.num_links;
+  const Verdict verdict = judge(*record.evidence);
+  record.accepted = verdict.accepted;
+  record.reason = verdict.reason;
+}
+
+void Merging::merge(const Choice& choice, const TcmTerms& terms, std::vector<MergeRecord>& records) {
+  const std::size_t q = choice.scan;
+  const bool paper = in_.options.profile == Profile::kPaper, guessed = in_.T_init[q] && in_.T_init[reference_];
+  MergeRecord record;
+  record.scan = q;
+  record.attempt = ++attempts_[q];
+  record.tcm = terms;
+  Rng rng = make_stream(in_.context.seed, "placement", in_.files[q] + "#" + std::to_string(record.attempt));
+  const Eigen::Isometry3d& T_first = choice.starts.front().T_reference_scan;
+  Eigen::Isometry3d T;
+  if (paper) {
+    T = place_scan_as_printed(in_.scans[q], target_, T_first, in_.options, rng, record);
+  } else if (guessed) {
+    T = place_scan(in_.scans[q], target_, T_first, in_.options, rng, record);
+  } else {
+    T = place_linked_scan(in_.scans[q], target_, choice.starts, in_.options, rng, record);
+    ask_links(q, T, record);
+  }
+  tried_with_[q] = paper || guessed ? num_merged_ : in_.graph.num_hypotheses(q, placed_);
+  if (record.accepted) {
+    T_reference_scan_[q] = T;
+    placed_[q] = true;
+    merged_.add(in_.scans[q].pyramid.level(0).cloud, T);
+    target_ = merged_.pyramid();
+    merged_tcm_cloud_.reset();
+    ++num_merged_;
+  }
+  in_.context.debug(in_.files[q] + (record.accepted ? " merged: " : " set aside: ") + record.reason);
+  records.push_back(std::move(record));
+}
+
+}  // namespace tcm_icp

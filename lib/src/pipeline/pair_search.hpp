@@ -1,0 +1,33 @@
+#pragma once
+// Which pairs of scans to try for links, and in which order; the coarse aligners behind it.
+
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "pose_graph.hpp"
+#include "prepared_scan.hpp"
+#include "tcm_icp/core/run_context.hpp"
+#include "tcm_icp/pipeline/pipeline_options.hpp"
+
+namespace tcm_icp {
+
+class PairSearch {
+ public:
+  /// Keeps references: all four must outlive the search.
+  PairSearch(const std::vector<PreparedScan>& scans, const std::vector<std::string>& files,
+             const PipelineOptions& options, const RunContext& context);
+  ~PairSearch();
+
+  /// Tries the pairs of `wanted` scans with any other by the next method that they were not tried by: height maps, then
+  /// features. Links go to the graph. False where no pair was left.
+  /// Cost: some 50 ms of processor time a pair and method; grows with the square of the number of scans.
+  bool extend(PoseGraph& graph, const std::vector<bool>& wanted);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace tcm_icp
