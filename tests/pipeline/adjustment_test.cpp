@@ -72,11 +72,28 @@ TEST(AdjustPoses, PerturbedTruthComesBack) {
   // Exact points; voxels that straddle an edge, and round tubes, leave a hundredth of the voxel at Huber's weight.
   const double tolerance = 0.02 * s.resolutions.fine_m;
   ASSERT_GT(worst_error_m(s, poses), 10 * tolerance);
-  const double moved_m = adjust_poses(s.scans, all_pairs(4), 0, s.resolutions, {}, {}, poses);
+  const double moved_m = adjust_poses(s.scans, all_pairs(4), 0, s.resolutions, {}, {}, poses).rms_move_m;
   EXPECT_LE(worst_error_m(s, poses), tolerance);
   EXPECT_LE(moved_m, tolerance) << "it has settled";
   EXPECT_TRUE(poses[0].isApprox(start[0], 0)) << "the reference is fixed";
   for (const auto& T : poses) EXPECT_TRUE(is_rigid(T.matrix(), 1e-12));
+}
+
+TEST(AdjustPoses, SaysWhatItsProgramsDid) {
+  const PreparedScene s = scene({.num_scans = 4, .points_per_scan = 5000, .range_m = 12}, 2);
+  auto poses = disturbed(s, 0.02, 0.1, 2);
+  PipelineOptions options;
+  options.placement.adjustment_steps = 0;
+  const AdjustmentRecord record = adjust_poses(s.scans, all_pairs(4), 0, s.resolutions, options, {}, poses);
+  EXPECT_EQ(record.lp_status, LpStatus::kOptimal);
+  EXPECT_EQ(record.lp.num_programs, 2);
+  EXPECT_GT(record.lp.num_pivots, 0);
+  EXPECT_LE(record.lp.relative_duality_gap, 1e-7);
+  EXPECT_LE(record.num_lp_matches, 12U * 150U);
+  EXPECT_GT(record.lp_rms_move_m, 0);
+  EXPECT_EQ(record.num_steps, 0);
+  // The programs alone bring the scans most of the way.
+  EXPECT_LT(worst_error_m(s, poses), 0.3 * worst_error_m(s, disturbed(s, 0.02, 0.1, 2)));
 }
 
 TEST(AdjustPoses, AScanWithoutLinksStays) {
@@ -91,12 +108,12 @@ TEST(AdjustPoses, AScanWithoutLinksStays) {
 TEST(AdjustPoses, NothingHappensWithoutStepsOrLinks) {
   const PreparedScene s = scene({.num_scans = 2, .points_per_scan = 2000}, 4);
   const auto start = disturbed(s, 0.02, 0.1, 4);
-  PlacementOptions none;
-  none.adjustment_steps = 0;
+  PipelineOptions none;
+  none.placement.adjustment_steps = none.placement.adjustment_lp_steps = 0;
   auto poses = start;
-  EXPECT_EQ(adjust_poses(s.scans, all_pairs(2), 0, s.resolutions, none, {}, poses), 0);
+  EXPECT_EQ(adjust_poses(s.scans, all_pairs(2), 0, s.resolutions, none, {}, poses).rms_move_m, 0);
   EXPECT_TRUE(poses[1].isApprox(start[1], 0));
-  EXPECT_EQ(adjust_poses(s.scans, {}, 0, s.resolutions, {}, {}, poses), 0);
+  EXPECT_EQ(adjust_poses(s.scans, {}, 0, s.resolutions, {}, {}, poses).rms_move_m, 0);
   EXPECT_TRUE(poses[1].isApprox(start[1], 0));
 }
 

@@ -21,7 +21,7 @@ TEST(Pipeline, AdjustmentClosesALoopBetterThanMergingAlone) {
                                                             .noise_m = 0.03},
                                                            0.04, 0.3, seed);
     PipelineOptions merging;
-    merging.placement.adjustment_steps = 0;
+    merging.placement.adjustment_steps = merging.placement.adjustment_lp_steps = 0;
     RunContext context;
     context.num_threads = 2;
     const PipelineResult alone = Pipeline(merging).run(files.paths, files.initial, context);

@@ -38,6 +38,7 @@ const std::vector<BadValue>& bad_values() {
       {"fine_points", [](O& o) { o.placement.fine_points = 99; }},
       {"held_out_points", [](O& o) { o.placement.held_out_points = 99; }},
       {"search_steps", [](O& o) { o.placement.search_steps = -1; }},
+      {"adjustment_lp_steps", [](O& o) { o.placement.adjustment_lp_steps = -1; }},
       {"adjustment_steps", [](O& o) { o.placement.adjustment_steps = -1; }},
       {"points", [](O& o) { o.refinement.points = 19; }},
       {"descent_steps", [](O& o) { o.refinement.descent_steps = 0; }},

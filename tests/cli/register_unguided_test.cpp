@@ -1,0 +1,139 @@
+// `tcm-icp register` without --init: scans in frames of their own come together, and what does not belong stays out.
+
+#include <algorithm>
+
+#include "cli_test.hpp"
+#include "result_files.hpp"
+#include "rewritten_town.hpp"
+#include "support/synthetic_scene.hpp"
+
+namespace tcm_icp::test {
+namespace {
+
+using Moves = std::vector<Eigen::Affine3d>;
+
+class RegisterUnguided : public CliTest {
+ protected:
+  RunResult register_to(const std::string& out, const Words& arguments) const {
+    return run(Words{"register", "--out", out} + arguments);
+  }
+  PoseFile poses(const std::string& out) const { return read_pose_file(folder() / out / "poses.json"); }
+
+  /// All six are right within the truth's tolerance, though the files' own frames are far off.
+  void expect_all_right(const PoseFile& file) const {
+    const SceneScore score = score_town(file);
+    for (const auto& scan : score.scans) {
+      EXPECT_EQ(scan.verdict, PoseVerdict::kOk) << scan.file << ": " << (scan.error ? scan.error->rmse_m : -1) << " m";
+    }
+  }
+  /// Registers the town with each scan moved.
+  void expect_right_when_moved(const Moves& moves) const {
+    Words files;
+    for (std::size_t i = 0; i < moves.size(); ++i) {
+      write_moved(folder_, i, moves[i]);
+      files.push_back(town_name(i));
+    }
+    const RunResult result = register_to("result", files + kSmall);
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    expect_all_right(moved_back(poses("result"), moves));
+  }
+};
+
+TEST_F(RegisterUnguided, PlacesEveryScanOfTheTown) {
+  const std::vector<std::optional<Eigen::Isometry3d>> as_they_lie(6, Eigen::Isometry3d::Identity());
+  ASSERT_EQ(score_town(as_they_lie, 2).count(PoseVerdict::kWrong), 5U) << "the start must fail";
+  const RunResult result = register_to("result", town_scans());
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  expect_all_right(poses("result"));
+  for (const auto& scan : poses("result").scans) {
+    EXPECT_EQ(scan.verdict, "accepted");
+    EXPECT_EQ(scan.component, 0);
+    EXPECT_FALSE(scan.pose_in_component);
+  }
+  const auto report = read_json(folder() / "result/report.json");
+  for (const auto& merge : report["merges"]) {
+    if (!merge["accepted"]) continue;
+    EXPECT_GE(merge["evidence"]["links"], 1);
+    EXPECT_GT(merge["evidence"]["link_log_odds"], 2.5);
+  }
+}
+
+TEST_F(RegisterUnguided, InAnyOrderOfTheFiles) {
+  const Words reference = Words{"--reference", "002.ply"} + kSmall;
+  ASSERT_EQ(register_to("forwards", town_scans() + reference).exit_code, 0);
+  ASSERT_EQ(register_to("mixed", town_scans({3, 5, 1, 0, 4, 2}) + reference).exit_code, 0);
+  const PoseFile a = poses("forwards"), b = poses("mixed");
+  expect_all_right(b);
+  for (const auto& scan : a.scans) {
+    const auto at = std::find_if(b.scans.begin(), b.scans.end(), [&](const auto& s) { return s.file == scan.file; });
+    ASSERT_NE(at, b.scans.end());
+    EXPECT_EQ(at->verdict, scan.verdict);
+    // Rounding alone: sums run in another order.
+    EXPECT_LT(difference_m(scan.T_reference_scan, at->T_reference_scan, 50), 1e-6) << scan.file;
+  }
+}
+
+TEST_F(RegisterUnguided, TurnedInAnyWay) {
+  Rng rng = make_stream(1, "register_unguided_test");
+  Moves moves;
+  for (int i = 0; i < 6; ++i) moves.emplace_back(testing::random_pose(100, rng));
+  expect_right_when_moved(moves);
+}
+
+TEST_F(RegisterUnguided, InMillimetres) { expect_right_when_moved(Moves(6, Eigen::Affine3d(Eigen::Scaling(1000.0)))); }
+
+TEST_F(RegisterUnguided, InKilometres) { expect_right_when_moved(Moves(6, Eigen::Affine3d(Eigen::Scaling(0.001)))); }
+
+TEST_F(RegisterUnguided, FarFromTheOrigin) {
+  Moves moves;
+  for (int i = 0; i < 6; ++i) moves.emplace_back(Eigen::Translation3d(5e6, (i - 3) * 1e6, 100 * i));
+  expect_right_when_moved(moves);
+}
+
+TEST_F(RegisterUnguided, TwoPlacesAreTwoGroups) {
+  ASSERT_EQ(run({"simulate", "--scene", "street", "--scans", "2", "--out", "street", "--seed", "5"}).exit_code, 0);
+  std::filesystem::rename(folder() / "street/000.ply", folder() / "street_a.ply");
+  std::filesystem::rename(folder() / "street/001.ply", folder() / "street_b.ply");
+  const RunResult result = register_to(
+      "result", town_scans({2, 3}) + Words{"street_a.ply", "street_b.ply", "--reference", "002.ply"} + kSmall);
+  EXPECT_EQ(result.exit_code, 3) << result.err;
+  const PoseFile file = poses("result");
+  ASSERT_EQ(file.scans.size(), 4U);
+  EXPECT_EQ(file.scans[0].status, ScanStatus::kReference);
+  EXPECT_EQ(file.scans[1].status, ScanStatus::kRegistered) << file.scans[1].reason;
+  EXPECT_EQ(file.scans[1].component, 0);
+  const auto json = read_json(folder() / "result/poses.json");
+  for (const std::size_t i : {2U, 3U}) {
+    EXPECT_EQ(file.scans[i].status, ScanStatus::kUnregistered);
+    EXPECT_EQ(file.scans[i].component, 1);
+    EXPECT_TRUE(json["scans"][i]["pose"].is_null());
+    ASSERT_TRUE(json["scans"][i].contains("pose_in_component")) << file.scans[i].reason;
+    EXPECT_FALSE(json["scans"][i]["pose_in_component"].is_null());
+  }
+  // Their poses are right against each other, and the town's against the town.
+  const auto T_of = [](const Truth& truth, std::size_t a, std::size_t b) {
+    return Eigen::Isometry3d(truth.scans[a].T_world_scan.inverse() * truth.scans[b].T_world_scan);
+  };
+  const Truth town = read_truth(town_file("truth.json")), street = read_truth(folder() / "street/truth.json");
+  EXPECT_LT(difference_m(file.scans[1].T_reference_scan, T_of(town, 2, 3), 20), 0.1);
+  ASSERT_TRUE(file.scans[2].pose_in_component && file.scans[3].pose_in_component);
+  const Eigen::Isometry3d T_a_b = file.scans[2].pose_in_component->inverse() * *file.scans[3].pose_in_component;
+  ASSERT_GT(difference_m(Eigen::Isometry3d::Identity(), T_of(street, 0, 1), 20), 1);
+  EXPECT_LT(difference_m(T_a_b, T_of(street, 0, 1), 20), 0.1);
+}
+
+TEST_F(RegisterUnguided, AMirroredScanStaysOut) {
+  Eigen::Affine3d mirror = Eigen::Affine3d::Identity();
+  mirror(0, 0) = -1;
+  write_moved(folder_, 3, mirror);
+  const RunResult result = register_to("result", town_scans({0, 1, 2, 4, 5}) + Words{"003.ply"});
+  EXPECT_EQ(result.exit_code, 3) << result.err;
+  const PoseFile file = poses("result");
+  EXPECT_EQ(file.scans[5].status, ScanStatus::kUnregistered) << file.scans[5].reason;
+  const SceneScore score = score_town(file);
+  EXPECT_EQ(score.count(PoseVerdict::kOk), 5U) << "the others are none the worse";
+  EXPECT_EQ(score.count(PoseVerdict::kWrong), 0U);
+}
+
+}  // namespace
+}  // namespace tcm_icp::test

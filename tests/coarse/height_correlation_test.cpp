@@ -1,0 +1,144 @@
+#include "tcm_icp/coarse/height_correlation.hpp"
+
+#include "support/matchers.hpp"
+#include "support/random_points.hpp"
+#include "support/synthetic_scene.hpp"
+#include "tcm_icp/core/error.hpp"
+
+namespace tcm_icp::testing {
+namespace {
+
+// What the refinement starts from: 5 degrees, and a small part of the yard's 24 m.
+constexpr double kTolerance_rad = 5 * EIGEN_PI / 180;
+constexpr double kTolerance_m = 1;
+
+SyntheticScene yard(double noise_m, double outlier_share, Rng& rng) {
+  SyntheticSceneOptions options;
+  options.num_scans = 3;
+  options.points_per_scan = 20000;
+  options.noise_m = noise_m;
+  options.outlier_share = outlier_share;
+  return synthetic_scene(options, rng);
+}
+
+std::vector<const Cloud*> pointers(const std::vector<Cloud>& scans) {
+  std::vector<const Cloud*> out;
+  for (const auto& scan : scans) out.push_back(&scan);
+  return out;
+}
+
+void expect_found(const SyntheticScene& scene) {
+  const std::vector<ScanPair> pairs = {{0, 1}, {0, 2}, {2, 1}};
+  const auto found = correlate_height_maps(pointers(scene.scans), pairs, {}, 1);
+  ASSERT_EQ(found.size(), pairs.size());
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    const Eigen::Isometry3d truth = scene.T_target_source(pairs[k].target, pairs[k].source);
+    const Points& points = scene.scans[pairs[k].source].points;
+    ASSERT_GT(pose_rmse_m(truth, Eigen::Isometry3d::Identity(), points), 10 * kTolerance_m);
+    ASSERT_FALSE(found[k].empty());
+    const PoseCandidate& best = found[k].front();
+    EXPECT_EQ(best.method, CoarseMethod::kHeightMap);
+    EXPECT_LT(rotation_angle_rad(truth.linear().transpose() * best.T_target_source.linear()), kTolerance_rad);
+    EXPECT_LT(pose_rmse_m(truth, best.T_target_source, points), kTolerance_m);
+    EXPECT_GT(best.margin, 1.1);
+    for (std::size_t i = 1; i < found[k].size(); ++i) {
+      EXPECT_LE(found[k][i].score, found[k][i - 1].score);
+      EXPECT_LE(found[k][i].margin, 1);
+    }
+  }
+}
+
+TEST(HeightCorrelation, FindsTheYardFromAnyFrame) {
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    Rng rng = make_stream(seed, "test");
+    expect_found(yard(0, 0, rng));
+  }
+}
+
+TEST(HeightCorrelation, FindsTheYardAmongNoiseAndOutliers) {
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    Rng rng = make_stream(seed, "test");
+    expect_found(yard(0.03, 0.02, rng));
+  }
+}
+
+TEST(HeightCorrelation, HasNoMarginForAStranger) {
+  Rng rng = make_stream(4, "test");
+  SyntheticScene scene = yard(0.02, 0, rng);
+  SyntheticSceneOptions options;
+  options.shape = SyntheticShape::kRubble;
+  options.points_per_scan = 20000;
+  scene.scans.push_back(synthetic_scene(options, rng).scans[0]);
+  const auto found = correlate_height_maps(pointers(scene.scans), {{0, 1}, {0, 3}, {3, 1}}, {}, 1);
+  for (const std::size_t stranger : {1, 2}) {
+    ASSERT_FALSE(found[stranger].empty());
+    EXPECT_LT(found[stranger].front().score, found[0].front().score);
+    EXPECT_LT(found[stranger].front().margin, found[0].front().margin);
+  }
+}
+
+TEST(HeightCorrelation, IsTheSameForAnyNumberOfThreads) {
+  Rng rng = make_stream(5, "test");
+  const SyntheticScene scene = yard(0.02, 0, rng);
+  const std::vector<ScanPair> pairs = {{0, 1}, {0, 2}, {1, 2}};
+  const auto one = correlate_height_maps(pointers(scene.scans), pairs, {}, 1);
+  for (const int num_threads : {2, 5}) {
+    const auto many = correlate_height_maps(pointers(scene.scans), pairs, {}, num_threads);
+    for (std::size_t k = 0; k < pairs.size(); ++k) {
+      ASSERT_EQ(one[k].size(), many[k].size());
+      for (std::size_t i = 0; i < one[k].size(); ++i) {
+        EXPECT_EQ(one[k][i].T_target_source.matrix(), many[k][i].T_target_source.matrix());
+        EXPECT_EQ(one[k][i].score, many[k][i].score);
+      }
+    }
+  }
+}
+
+TEST(HeightCorrelation, ScalesWithTheInput) {
+  Rng rng = make_stream(6, "test");
+  const SyntheticScene scene = yard(0.02, 0, rng);
+  constexpr double kFactor = 1000;
+  std::vector<Cloud> large;
+  for (const auto& scan : scene.scans) large.push_back(scaled_cloud(scan, kFactor));
+  const auto expected = correlate_height_maps(pointers(scene.scans), {{0, 1}}, {}, 1)[0].front();
+  const auto actual = correlate_height_maps(pointers(large), {{0, 1}}, {}, 1)[0].front();
+  // Rounding may move a point across the edge of a cell.
+  EXPECT_LT(pose_rmse_m(scaled_pose(expected.T_target_source, kFactor), actual.T_target_source, large[1].points),
+            0.1 * kFactor);
+}
+
+TEST(HeightCorrelation, AnswersForDegenerateScans) {
+  Rng rng = make_stream(7, "test");
+  std::vector<Cloud> scans(3);
+  for (int i = 0; i < 500; ++i) {
+    scans[0].points.emplace_back(i, 0, 0);
+    scans[1].points.emplace_back(i % 20, i / 20, 0);
+  }
+  scans[2].points = random_points(5, 1, rng);
+  const auto found = correlate_height_maps(pointers(scans), {{0, 1}, {1, 2}, {2, 0}, {1, 1}}, {}, 1);
+  for (const auto& pair : found) {
+    for (const auto& candidate : pair) EXPECT_TRUE(is_rigid(candidate.T_target_source.matrix(), 1e-9));
+  }
+  EXPECT_TRUE(correlate_height_maps(pointers(scans), {}, {}, 1).empty());
+  EXPECT_THROW(correlate_height_maps(pointers(scans), {{0, 3}}, {}, 1), InvalidInput);
+  scans[1].points.assign(10, Eigen::Vector3d::Ones());
+  EXPECT_THROW(correlate_height_maps(pointers(scans), {{0, 1}}, {}, 1), InvalidInput);
+}
+
+TEST(HeightCorrelation, RejectsOptionsOutOfBounds) {
+  HeightCorrelationOptions options;
+  options.cells_across = 2;
+  EXPECT_THROW(options.validate(), InvalidOptions);
+  options = {};
+  options.heading_step_deg = 0;
+  EXPECT_THROW(options.validate(), InvalidOptions);
+  options = {};
+  options.max_candidates = 0;
+  EXPECT_THROW(options.validate(), InvalidOptions);
+  options = {};
+  options.map.clip_sigma = 0;
+  EXPECT_THROW(options.validate(), InvalidOptions);
+}
+
+}  // namespace
+}  // namespace tcm_icp::testing
