@@ -22,7 +22,7 @@ configure() {
 
 register() {
   local status=0
-  "$tcm_icp" register "$scene"/*.ply --init "$scene/initial_poses.json" --out "$out" --force --threads "$(nproc)" ||
+  "$tcm_icp" register "$scene"/*.ply --out "$out" --force --threads "$(nproc)" ||
     status=$?
   if ((status == 3)); then
     echo "some scans are unregistered; $out/report.json says which and why"
