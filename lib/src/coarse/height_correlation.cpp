@@ -180,6 +180,8 @@ std::vector<PoseCandidate> Search::candidates(const ScanPair& pair, const PeakLi
   }
   std::stable_sort(refined.begin(), refined.end(), by_score);
   drop_near(kFineScale);
+  // Where the fine maps share too little there is no pose, and nothing to be a margin against.
+  std::erase_if(refined, [](const MapPeak& peak) { return !(peak.score > 0); });
   const std::vector<MapPeak>& distinct = refined;
   std::vector<PoseCandidate> out;
   for (std::size_t i = 0; i < std::min<std::size_t>(distinct.size(), static_cast<std::size_t>(options.max_candidates));
