@@ -90,6 +90,16 @@ TEST_F(RegisterUnguided, FarFromTheOrigin) {
   expect_right_when_moved(moves);
 }
 
+// Two of its scans share so little that a height map pose is left without a shared cell: its margin was 0 by 0, and the
+// graph's measure not a number.
+TEST_F(RegisterUnguided, PairsThatShareNextToNothingDoNotStopTheRun) {
+  ASSERT_EQ(run({"simulate", "--scene", "town", "--out", "town", "--seed", "1"}).exit_code, 0);
+  Words scans;
+  for (int i = 0; i < 6; ++i) scans.push_back("town/00" + std::to_string(i) + ".ply");
+  const RunResult result = register_to("result", scans);
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+}
+
 TEST_F(RegisterUnguided, TwoPlacesAreTwoGroups) {
   ASSERT_EQ(run({"simulate", "--scene", "street", "--scans", "2", "--out", "street", "--seed", "5"}).exit_code, 0);
   std::filesystem::rename(folder() / "street/000.ply", folder() / "street_a.ply");
