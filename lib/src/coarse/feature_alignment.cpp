@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 
+#include "core/pick.hpp"
 #include "feature_hypotheses.hpp"
 #include "tcm_icp/core/error.hpp"
 #include "tcm_icp/registration/normal_space_sampling.hpp"
@@ -40,10 +41,7 @@ DescribedScan describe_scan(const ScanPyramid& pyramid, const FeatureAlignmentOp
     out.levels.push_back(find_features(pyramid.level(l), options.features));
   }
   const Cloud& cloud = pyramid.level(0).cloud;
-  for (const std::size_t i : normal_space_sample(cloud, static_cast<std::size_t>(options.check_points), rng)) {
-    out.check_sample.points.push_back(cloud.points[i]);
-    out.check_sample.normals.push_back(cloud.normals[i]);
-  }
+  out.check_sample = pick(cloud, normal_space_sample(cloud, static_cast<std::size_t>(options.check_points), rng));
   return out;
 }
 

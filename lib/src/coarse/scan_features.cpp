@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/pick.hpp"
 #include "fpfh_of_neighbors.hpp"
 #include "local_normals.hpp"
 #include "tcm_icp/core/error.hpp"
@@ -68,10 +69,8 @@ ScanFeatures find_features(const PyramidLevel& level, const FeatureOptions& opti
   const Descriptors all = fpfh(cloud, neighbors, options.radius_voxels * voxel);
   const auto chosen = spread(by_distinctness(all), points, neighbors, options.keypoint_spacing_voxels * voxel,
                              static_cast<std::size_t>(options.max_keypoints));
-  ScanFeatures out{voxel, {}, Descriptors(kFpfhSize, static_cast<Eigen::Index>(chosen.size()))};
+  ScanFeatures out{voxel, pick(cloud, chosen), Descriptors(kFpfhSize, static_cast<Eigen::Index>(chosen.size()))};
   for (std::size_t k = 0; k < chosen.size(); ++k) {
-    out.keypoints.points.push_back(cloud.points[chosen[k]]);
-    out.keypoints.normals.push_back(cloud.normals[chosen[k]]);
     out.descriptors.col(static_cast<Eigen::Index>(k)) = all.col(chosen[k]);
   }
   return out;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/pick.hpp"
 #include "tcm_icp/core/parallel.hpp"
 #include "tcm_icp/core/random.hpp"
 #include "tcm_icp/core/statistics.hpp"
@@ -10,17 +11,6 @@
 
 namespace tcm_icp {
 namespace {
-
-Cloud pick(const Cloud& cloud, const std::vector<std::size_t>& indices) {
-  Cloud out;
-  out.points.reserve(indices.size());
-  out.normals.reserve(indices.size());
-  for (const std::size_t i : indices) {
-    out.points.push_back(cloud.points[i]);
-    out.normals.push_back(cloud.normals[i]);
-  }
-  return out;
-}
 
 Cloud draw(const Cloud& cloud, int count, std::uint64_t seed, std::string_view stage, const std::string& file) {
   Rng rng = make_stream(seed, stage, file);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "simulation/box.hpp"
 #include "simulation/draw.hpp"
 #include "simulation/town_objects.hpp"
 
@@ -10,7 +11,6 @@ namespace tcm_icp {
 namespace {
 
 using Eigen::AlignedBox2d;
-using Eigen::AlignedBox3d;
 using Eigen::Isometry3d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
@@ -51,7 +51,7 @@ class Facade {
   }
 
   void box(double x0, double x1, double y0, double y1, double z0, double z1) {
-    add_box(mesh_, T_world_wall_, AlignedBox3d(Vector3d(x0, y0, z0), Vector3d(x1, y1, z1)), style_.reflectivity);
+    add_box(mesh_, T_world_wall_, tcm_icp::box(x0, x1, y0, y1, z0, z1), style_.reflectivity);
   }
 
   void opening(const AlignedBox2d& outer, const AlignedBox2d& hole, double y, double recess_m, double back) {

@@ -2,21 +2,15 @@
 
 #include <numbers>
 
+#include "simulation/box.hpp"
 #include "simulation/draw.hpp"
 
 namespace tcm_icp {
 namespace {
 
-using Eigen::AlignedBox3d;
 using Eigen::Isometry3d;
 using Eigen::Translation3d;
 using Eigen::Vector3d;
-
-constexpr double kFooting_m = 0.5;  // objects go on below the ground, which is not level
-
-AlignedBox3d box(double x0, double x1, double y0, double y1, double z0, double z1) {
-  return {Vector3d(x0, y0, z0), Vector3d(x1, y1, z1)};
-}
 
 }  // namespace
 
@@ -38,7 +32,8 @@ void add_van(TriangleMesh& mesh, const Isometry3d& T_world_van, Rng& rng) {
 void add_sign(TriangleMesh& mesh, const Isometry3d& T_world_sign, Rng& rng) {
   const double height = uniform(rng, 2.4, 3.6);
   const int num_plates = 1 + static_cast<int>(uniform_index(rng, 2));
-  add_frustum(mesh, T_world_sign * Translation3d(0, 0, -kFooting_m), {0.04, 0.04, kFooting_m + height, 8}, 0.5);
+  add_frustum(mesh, T_world_sign * Translation3d(0, 0, -kObjectFooting_m), {0.04, 0.04, kObjectFooting_m + height, 8},
+              0.5);
   for (int i = 0; i < num_plates; ++i) {
     const double half = uniform(rng, 0.25, 0.45);
     const double top = height - 0.8 * i;
@@ -49,20 +44,22 @@ void add_sign(TriangleMesh& mesh, const Isometry3d& T_world_sign, Rng& rng) {
 void add_bollard(TriangleMesh& mesh, const Isometry3d& T_world_bollard, Rng& rng) {
   const double radius = uniform(rng, 0.06, 0.16);
   const double height = uniform(rng, 0.7, 1.1);
-  add_frustum(mesh, T_world_bollard * Translation3d(0, 0, -kFooting_m), {radius, radius, kFooting_m + height, 10}, 0.5);
+  add_frustum(mesh, T_world_bollard * Translation3d(0, 0, -kObjectFooting_m),
+              {radius, radius, kObjectFooting_m + height, 10}, 0.5);
 }
 
 void add_cabinet(TriangleMesh& mesh, const Isometry3d& T_world_cabinet, Rng& rng) {
   const double x = uniform(rng, 0.25, 0.9);
   const double y = uniform(rng, 0.18, 0.35);
   const double height = uniform(rng, 0.8, 1.7);
-  add_box(mesh, T_world_cabinet, box(-x, x, -y, y, -kFooting_m, height), 0.5);
+  add_box(mesh, T_world_cabinet, box(-x, x, -y, y, -kObjectFooting_m, height), 0.5);
 }
 
 void add_poster_column(TriangleMesh& mesh, const Isometry3d& T_world_column, Rng& rng) {
   const double radius = uniform(rng, 0.45, 0.75);
   const double height = uniform(rng, 2.4, 3.3);
-  add_frustum(mesh, T_world_column * Translation3d(0, 0, -kFooting_m), {radius, radius, kFooting_m + height, 20}, 0.7);
+  add_frustum(mesh, T_world_column * Translation3d(0, 0, -kObjectFooting_m),
+              {radius, radius, kObjectFooting_m + height, 20}, 0.7);
   add_frustum(mesh, T_world_column * Translation3d(0, 0, height), {1.15 * radius, 0.05, 0.4, 20}, 0.4);
 }
 
@@ -72,13 +69,13 @@ void add_shelter(TriangleMesh& mesh, const Isometry3d& T_world_shelter, Rng& rng
   add_box(mesh, T_world_shelter, box(-x, x, 0.68, 0.72, 0.3, 2.1), 0.15);
   for (const double px : {-x, x})
     for (const double py : {-0.6, 0.7})
-      add_box(mesh, T_world_shelter, box(px - 0.05, px + 0.05, py - 0.05, py + 0.05, -kFooting_m, 2.3), 0.5);
+      add_box(mesh, T_world_shelter, box(px - 0.05, px + 0.05, py - 0.05, py + 0.05, -kObjectFooting_m, 2.3), 0.5);
   add_box(mesh, T_world_shelter, box(-0.7 * x, 0.7 * x, 0.2, 0.55, 0.42, 0.5), 0.5);
 }
 
 void add_garden_wall(TriangleMesh& mesh, const Isometry3d& T_world_wall, double length_m, Rng& rng) {
   const double height = uniform(rng, 0.5, 2.2);
-  add_box(mesh, T_world_wall, box(-length_m / 2, length_m / 2, -0.15, 0.15, -kFooting_m, height), 0.5);
+  add_box(mesh, T_world_wall, box(-length_m / 2, length_m / 2, -0.15, 0.15, -kObjectFooting_m, height), 0.5);
 }
 
 void add_hedge(TriangleMesh& mesh, const Isometry3d& T_world_hedge, double length_m, Rng& rng) {

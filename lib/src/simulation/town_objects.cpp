@@ -2,23 +2,17 @@
 
 #include <numbers>
 
+#include "simulation/box.hpp"
 #include "simulation/draw.hpp"
 
 namespace tcm_icp {
 namespace {
 
 using Eigen::AlignedBox2d;
-using Eigen::AlignedBox3d;
 using Eigen::Isometry3d;
 using Eigen::Translation3d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
-
-constexpr double kFooting_m = 0.5;  // objects go on below the ground, which is not level
-
-AlignedBox3d box(double x0, double x1, double y0, double y1, double z0, double z1) {
-  return {Vector3d(x0, y0, z0), Vector3d(x1, y1, z1)};
-}
 
 /// A car's cabin: a box with sloping front and back.
 void add_cabin(TriangleMesh& mesh, const Isometry3d& T, double half_width, double bottom, double top) {
@@ -40,7 +34,7 @@ void add_cabin(TriangleMesh& mesh, const Isometry3d& T, double half_width, doubl
 void add_shed(TriangleMesh& mesh, const Isometry3d& T_world_shed, const Vector2d& half_size_m, Rng& rng) {
   const double x = half_size_m.x(), y = half_size_m.y();
   const double height = uniform(rng, 2.3, 3.2);
-  add_box(mesh, T_world_shed, box(-x, x, -y, y, -kFooting_m, height), 0.45);
+  add_box(mesh, T_world_shed, box(-x, x, -y, y, -kObjectFooting_m, height), 0.45);
   add_box(mesh, T_world_shed, box(-x - 0.25, x + 0.25, -y - 0.25, y + 0.25, height, height + 0.2), 0.4);
   // The door's frame stands out by 6 cm.
   const Isometry3d T_world_front = T_world_shed * Translation3d(0, -y - 0.06, 0);
@@ -54,8 +48,8 @@ void add_tree(TriangleMesh& mesh, const Isometry3d& T_world_tree, Rng& rng) {
   const double trunk_radius = uniform(rng, 0.1, 0.28);
   const double crown_radius = uniform(rng, 1.2, 2.4);
   const double crown_half_height = uniform(rng, 1.2, 2.6);
-  add_frustum(mesh, T_world_tree * Translation3d(0, 0, -kFooting_m),
-              {trunk_radius, 0.6 * trunk_radius, kFooting_m + trunk_height + 0.5 * crown_half_height, 10}, 0.35);
+  add_frustum(mesh, T_world_tree * Translation3d(0, 0, -kObjectFooting_m),
+              {trunk_radius, 0.6 * trunk_radius, kObjectFooting_m + trunk_height + 0.5 * crown_half_height, 10}, 0.35);
   // Leaves in proportion to the crown's surface, so that small and large crowns let through the same share of light.
   const int leaves = static_cast<int>(110 * crown_radius * (crown_radius + crown_half_height));
   add_foliage(mesh, T_world_tree * Translation3d(0, 0, trunk_height + 0.7 * crown_half_height),
@@ -86,7 +80,8 @@ void add_car(TriangleMesh& mesh, const Isometry3d& T_world_car, Rng& rng) {
 
 void add_lamp(TriangleMesh& mesh, const Isometry3d& T_world_lamp, Rng& rng) {
   const double height = uniform(rng, 4.5, 7);
-  add_frustum(mesh, T_world_lamp * Translation3d(0, 0, -kFooting_m), {0.1, 0.06, kFooting_m + height, 10}, 0.5);
+  add_frustum(mesh, T_world_lamp * Translation3d(0, 0, -kObjectFooting_m), {0.1, 0.06, kObjectFooting_m + height, 10},
+              0.5);
   add_box(mesh, T_world_lamp, box(-0.05, 1.6, -0.05, 0.05, height - 0.1, height), 0.5);
   add_box(mesh, T_world_lamp, box(1.1, 1.8, -0.15, 0.15, height - 0.2, height - 0.1), 0.5);
 }
@@ -95,7 +90,7 @@ void add_fence(TriangleMesh& mesh, const Isometry3d& T_world_fence, double lengt
   const int spans = std::max(1, static_cast<int>(length_m / 2));
   for (int i = 0; i <= spans; ++i) {
     const double x = length_m * (static_cast<double>(i) / spans - 0.5);
-    add_box(mesh, T_world_fence, box(x - 0.06, x + 0.06, -0.06, 0.06, -kFooting_m, 1.2), 0.4);
+    add_box(mesh, T_world_fence, box(x - 0.06, x + 0.06, -0.06, 0.06, -kObjectFooting_m, 1.2), 0.4);
   }
   for (const double z : {0.45, 1.0}) {
     add_box(mesh, T_world_fence, box(-length_m / 2, length_m / 2, -0.02, 0.02, z, z + 0.14), 0.4);
