@@ -10,6 +10,8 @@
 #include "support/matchers.hpp"
 #include "support/random_points.hpp"
 #include "tcm_icp/core/error.hpp"
+#include "tcm_icp/core/neighbor_index.hpp"
+#include "tcm_icp/core/normals.hpp"
 
 namespace tcm_icp {
 namespace {
@@ -33,7 +35,8 @@ TEST(VoxelSampler, IsBoundedAndKeepsTheMean) {
     const VoxelKey key = voxel_key(p, size);
     keys.emplace(key.x, key.y, key.z);
   }
-  EXPECT_EQ(keys.size(), sample.size()) << "one point to a voxel";
+  // One point to a voxel, but for a few that joining moved over a border.
+  EXPECT_GE(keys.size(), sample.size() - sample.size() / 50);
 }
 
 TEST(VoxelSampler, BlocksOfTheStreamDoNotMatterOnceTheVoxelIsChosen) {
@@ -56,6 +59,28 @@ TEST(VoxelSampler, ScalesWithTheCloud) {
   large.add(testing::scaled(points, 1024));
   EXPECT_EQ(large.voxel_size_m(), 1024 * small.voxel_size_m());
   EXPECT_EQ(large.finish(), testing::scaled(small.finish(), 1024));
+}
+
+// Each place is seen many times, as by a scanner that stands still: voxel borders run through many of them.
+TEST(VoxelSampler, APlaceSplitByVoxelBordersIsOnePoint) {
+  Rng rng = make_stream(4, "voxel_test");
+  const Points places = testing::random_points(400, 10, rng);
+  Points points;
+  for (int repeat = 0; repeat < 50; ++repeat) {
+    for (const auto& p : testing::random_points(places.size(), 0.05, rng)) {
+      points.push_back(places[points.size() % places.size()] + p);
+    }
+  }
+  VoxelSampler sampler(1500);
+  sampler.add(points);
+  const Points sample = sampler.finish();
+  const double voxel_m = sampler.voxel_size_m();
+  ASSERT_GT(voxel_m, 0.1);                                          // it grew beyond what the jitter spans
+  ASSERT_GT(count_voxels(points, voxel_m), 6 * places.size() / 5);  // and its borders do split places
+  EXPECT_LT(sample.size(), places.size() + places.size() / 20);
+  EXPECT_GT(median_spacing(sample, NeighborIndex(sample)), voxel_m / 2);
+  const NeighborIndex index(sample);
+  for (const auto& p : places) EXPECT_TRUE(index.any_within(p, voxel_m));
 }
 
 TEST(VoxelSampler, EqualPointsAreOne) {

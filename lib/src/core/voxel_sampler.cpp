@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <string>
 #include <utility>
 
@@ -15,6 +16,8 @@ namespace {
 
 // The first voxel edge as a share of the scan's size: 2.5 mm for a scan whose points lie 10 m from its middle.
 constexpr double kFirstVoxelShare = 1.0 / 4096;
+// Of a voxel that had to grow: means nearer than this are of one place.
+constexpr double kJoinedShare = 0.5;
 
 struct Voxel {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -49,6 +52,7 @@ struct VoxelSampler::Impl {
 
   std::size_t max_voxels;
   double size = 0;
+  bool has_grown = false;
   Eigen::Vector3d waiting = Eigen::Vector3d::Zero();  ///< the one place where all points so far lie
   double num_waiting = 0;
   VoxelTable table;
@@ -80,11 +84,37 @@ struct VoxelSampler::Impl {
     finer.swap(voxels);
     const VoxelTable finer_table = std::exchange(table, VoxelTable());
     size *= 2;
+    has_grown = true;
     for (std::size_t i = 0; i < finer.size(); ++i) {
       const VoxelKey& key = finer_table.keys()[i];
       // Arithmetic shift: floor(k / 2) for negative keys too.
       add({key.x >> 1, key.y >> 1, key.z >> 1}, finer[i].sum, finer[i].count);
     }
+  }
+
+  // Where a voxel's border runs through one place, its points' means lie on both sides of it, nearer to one another
+  // than voxels are wide. They become one, or neighbours of a point would be that one place over and over.
+  void join_split_places() {
+    std::vector<std::uint32_t> order(voxels.size());
+    std::iota(order.begin(), order.end(), 0U);
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::uint32_t a, std::uint32_t b) { return voxels[a].count > voxels[b].count; });
+    const double reach = kJoinedShare * size;
+    for (const std::uint32_t i : order) {
+      if (voxels[i].count == 0) continue;
+      const Eigen::Vector3d mean = voxels[i].sum / voxels[i].count;
+      const VoxelKey key = table.keys()[i];
+      for (std::int64_t n = 0; n < 27; ++n) {
+        if (n == 13) continue;  // itself
+        const std::uint32_t j = table.find({key.x + n % 3 - 1, key.y + n / 3 % 3 - 1, key.z + n / 9 - 1});
+        if (j == VoxelTable::kNone || voxels[j].count == 0) continue;
+        if ((voxels[j].sum / voxels[j].count - mean).squaredNorm() > reach * reach) continue;
+        voxels[i].sum += voxels[j].sum;
+        voxels[i].count += voxels[j].count;
+        voxels[j].count = 0;
+      }
+    }
+    std::erase_if(voxels, [](const Voxel& v) { return v.count == 0; });
   }
 
   void add(const VoxelKey& key, const Eigen::Vector3d& sum, double count) {
@@ -126,6 +156,7 @@ void VoxelSampler::add(std::span<const Eigen::Vector3d> points) {
 Points VoxelSampler::finish() {
   auto& s = *impl_;
   if (s.size == 0) return s.num_waiting > 0 ? Points{s.waiting} : Points{};
+  if (s.has_grown) s.join_split_places();
   Points out;
   out.reserve(s.voxels.size());
   for (const auto& v : s.voxels) out.push_back(v.sum / v.count);

@@ -38,8 +38,19 @@ class VoxelTable {
     return last_;
   }
 
- private:
   static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+
+  /// The voxel's number; kNone where it has none.
+  std::uint32_t find(const VoxelKey& key) const {
+    const auto tag = static_cast<std::uint32_t>(VoxelKeyHash{}(key));
+    const std::size_t mask = slots_.size() - 1;
+    for (std::size_t i = tag & mask; slots_[i].number != kNone; i = (i + 1) & mask) {
+      if (slots_[i].tag == tag && keys_[slots_[i].number] == key) return slots_[i].number;
+    }
+    return kNone;
+  }
+
+ private:
   struct Slot {
     std::uint32_t tag = 0;
     std::uint32_t number = kNone;
