@@ -35,14 +35,15 @@ MapImages turned_images(const HeightMap& map, double heading_rad, int grid_size)
       const float du = u - static_cast<float>(column), dv = v - static_cast<float>(row);
       const std::size_t k = at(row, column, map.size), below = k + static_cast<std::size_t>(map.size);
       const float w00 = (1 - du) * (1 - dv), w01 = du * (1 - dv), w10 = (1 - du) * dv, w11 = du * dv;
-      const float weight =
-          w00 * map.mask[k] + w01 * map.mask[k + 1] + w10 * map.mask[below] + w11 * map.mask[below + 1];
+      const auto interpolated = [&](const auto& image) {
+        return w00 * image[k] + w01 * image[k + 1] + w10 * image[below] + w11 * image[below + 1];
+      };
+      const float weight = interpolated(map.mask);
       if (weight < kMinWeight) continue;
       const std::size_t to = at(y + middle, x + middle, grid_size);
       out.mask[to] = 1;
-      out.detail[to] =
-          (w00 * map.detail[k] + w01 * map.detail[k + 1] + w10 * map.detail[below] + w11 * map.detail[below + 1]) /
-          weight;
+      out.detail[to] = interpolated(map.detail) / weight;
+      out.structure[to] = interpolated(map.structure) / weight;
     }
   }
   return out;
