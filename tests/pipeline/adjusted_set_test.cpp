@@ -16,14 +16,15 @@ using testing::PreparedScene;
 class AdjustedSetTest : public ::testing::Test {
  protected:
   void see_yard(std::size_t num_scans) { see(testing::SyntheticShape::kYard, num_scans); }
-  void see(testing::SyntheticShape shape, std::size_t num_scans) {
+  void see(testing::SyntheticShape shape, std::size_t num_scans, double range_m = 18) {
     s_ = testing::prepared_scene(
-        {.shape = shape, .num_scans = num_scans, .points_per_scan = 5000, .range_m = 18, .noise_m = 0.02}, rng_);
+        {.shape = shape, .num_scans = num_scans, .points_per_scan = 5000, .range_m = range_m, .noise_m = 0.02}, rng_);
     graph_ = PoseGraph(num_scans);
     set_.placed.assign(num_scans, true);
     set_.evidence.assign(num_scans, AlignmentEvidence{});
     set_.evidence[0].reset();
     set_.reasons.assign(num_scans, "");
+    set_.group_log_odds.assign(num_scans, 0);
     for (std::size_t i = 0; i < num_scans; ++i) set_.T_reference_scan.push_back(s_.scene.T_target_source(0, i));
   }
   void displace(std::size_t i, double angle_rad, double shift_m) {
@@ -136,6 +137,40 @@ TEST_F(AdjustedSetTest, LinksAreNotAskedAboutGuessedScans) {
   adjust();
   EXPECT_EQ(set_.num_placed(), 3u);
   EXPECT_TRUE(std::isnan(set_.evidence[1]->link_log_odds));
+}
+
+// What it joined a group by counts beside its own links.
+TEST_F(AdjustedSetTest, TheLinkOfAGroupSpeaksForTheScanThatJoinedByIt) {
+  see_yard(3);
+  link(0, 1, 9);
+  link(0, 2, 1);
+  set_.group_log_odds[2] = 4;
+  adjust();
+  EXPECT_EQ(set_.num_placed(), 3u);
+  EXPECT_EQ(set_.evidence[2]->link_log_odds, 5);
+}
+
+// With the reference at the end of a row, all errors of the row pile up at its other end.
+TEST_F(AdjustedSetTest, TheScanWithTheMostLinksBecomesTheReference) {
+  see(testing::SyntheticShape::kYard, 8, 7);
+  for (const std::size_t i : {1u, 3u, 5u, 6u, 7u}) set_.placed[i] = false;
+  const AdjustedSet before = set_;
+  options_.reference = "0.ply";
+  adjust();
+  EXPECT_EQ(set_.pairs, (ScanPairs{{0, 2}, {2, 4}})) << "a row, not a ring";
+  EXPECT_EQ(set_.reference, 0u) << "the user's choice";
+  set_ = before;
+  options_.reference.clear();
+  adjust();
+  EXPECT_EQ(set_.reference, 2u);
+  EXPECT_EQ(set_.num_placed(), 3u);
+  EXPECT_TRUE(set_.T_reference_scan[2].isApprox(Eigen::Isometry3d::Identity(), 0));
+  EXPECT_FALSE(set_.evidence[2]);
+  EXPECT_GT(set_.evidence[0]->num_points, 0u) << "the one before is judged like the others";
+  for (const std::size_t i : {0u, 4u}) {
+    EXPECT_LE(testing::pose_rmse_m(s_.scene.T_target_source(2, i), set_.T_reference_scan[i], s_.scene.scans[i].points),
+              0.2 * s_.resolutions.fine_m);
+  }
 }
 
 TEST_F(AdjustedSetTest, ScansThatAreNoMembersAreLeftAlone) {

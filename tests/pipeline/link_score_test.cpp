@@ -115,5 +115,12 @@ TEST(LinkLogOdds, TellsAGoodLinkFromAPoorOne) {
   EXPECT_GT(good.score(), kClearLogOdds);
 }
 
+TEST(MisfitLogOdds, WhatFitsHalfAsWellAsOthersLosesNothing) {
+  for (const double ratio : {0.1, 1.0, 2.0}) EXPECT_EQ(misfit_log_odds(ratio * 0.01, 0.01), 0) << ratio;
+  EXPECT_NEAR(misfit_log_odds(0.048, 0.01), -4 * std::log(2.4), 1e-12);
+  EXPECT_EQ(misfit_log_odds(0.048, 0.01), misfit_log_odds(48, 10)) << "whatever the unit";
+  EXPECT_EQ(misfit_log_odds(0.01, 0), 0) << "perfect data";
+}
+
 }  // namespace
 }  // namespace tcm_icp

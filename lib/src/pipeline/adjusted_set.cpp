@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "link_score.hpp"
 #include "link_verification.hpp"
 #include "scan_set.hpp"
 #include "tcm_icp/core/parallel.hpp"
@@ -17,7 +18,19 @@ bool weaker(const AlignmentEvidence& a, const AlignmentEvidence& b) {
                                                       : a.consensus() < b.consensus();
 }
 
-/// Fills in the evidence of all members; returns the one that agrees least among those that fail.
+// Of the members but the reference: the lower median, so that of two the better counts.
+double typical_residual_m(const AdjustedSet& set) {
+  std::vector<double> residuals_m;
+  for (std::size_t i = 0; i < set.placed.size(); ++i) {
+    if (set.placed[i] && i != set.reference) residuals_m.push_back(set.evidence[i]->median_residual_m);
+  }
+  if (residuals_m.empty()) return 0;
+  const auto middle = residuals_m.begin() + static_cast<std::ptrdiff_t>((residuals_m.size() - 1) / 2);
+  std::nth_element(residuals_m.begin(), middle, residuals_m.end());
+  return *middle;
+}
+
+/// Fills in the evidence of all members; returns the weakest of those that fail.
 std::optional<std::size_t> verify_members(const std::vector<PreparedScan>& scans, const PoseGraph& graph,
                                           const RunContext& context, AdjustedSet& set) {
   context.report("verifying", 0, 1);
@@ -32,13 +45,15 @@ std::optional<std::size_t> verify_members(const std::vector<PreparedScan>& scans
       const Points& points = scans[i].held_out_sample.points;
       const StartPose support = graph.support(i, set.placed, set.T_reference_scan, points,
                                               kSameLinkPose * scans[i].pyramid.level(0).voxel_size_m);
-      set.evidence[i]->link_log_odds = support.log_odds;
+      set.evidence[i]->link_log_odds = support.log_odds + set.group_log_odds[i];
       set.evidence[i]->num_links = support.num_links;
     }
   });
+  const double typical_m = typical_residual_m(set);
   std::optional<std::size_t> worst;
   for (std::size_t i = 0; i < scans.size(); ++i) {
     if (!set.placed[i] || i == set.reference) continue;
+    set.evidence[i]->link_log_odds += misfit_log_odds(set.evidence[i]->median_residual_m, typical_m);
     const Verdict verdict = judge(*set.evidence[i]);
     set.reasons[i] = verdict.reason;
     if (verdict.accepted) continue;
@@ -47,10 +62,46 @@ std::optional<std::size_t> verify_members(const std::vector<PreparedScan>& scans
   return worst;
 }
 
+// The member with the most verified links: the graph that chose the first reference knew guesses only, and errors grow
+// with the distance from it.
+std::size_t best_reference(const AdjustedSet& set) {
+  std::vector<std::vector<std::size_t>> adjacency(set.placed.size());
+  for (const auto& [a, b] : set.pairs) {
+    adjacency[a].push_back(b);
+    adjacency[b].push_back(a);
+  }
+  const std::size_t best = choose_reference(adjacency);
+  return adjacency[best].size() > adjacency[set.reference].size() ? best : set.reference;
+}
+
+void move_reference(std::size_t to, const PoseGraph& graph, AdjustedSet& set) {
+  const Eigen::Isometry3d T_new_old = set.T_reference_scan[to].inverse();
+  for (Eigen::Isometry3d& T : set.T_reference_scan) T = T_new_old * T;
+  set.T_reference_scan[to].setIdentity();
+  set.evidence[to].reset();
+  set.reasons[to].clear();
+  AlignmentEvidence& evidence = set.evidence[set.reference].emplace();
+  evidence.runner_up = 0;  // no fit of its own whose neighbourhood could be explored
+  if (!graph.links().empty()) evidence.link_log_odds = 0;
+  set.reference = to;
+}
+
 }  // namespace
 
 std::size_t AdjustedSet::num_placed() const {
   return static_cast<std::size_t>(std::count(placed.begin(), placed.end(), true));
+}
+
+AdjustedSet set_of_one(std::size_t scan, std::size_t num_scans) {
+  AdjustedSet set;
+  set.reference = scan;
+  set.placed.assign(num_scans, false);
+  set.placed[scan] = true;
+  set.T_reference_scan.assign(num_scans, Eigen::Isometry3d::Identity());
+  set.evidence.assign(num_scans, std::nullopt);
+  set.reasons.assign(num_scans, "no link to another scan was found");
+  set.group_log_odds.assign(num_scans, 0);
+  return set;
 }
 
 void adjust_and_verify(const std::vector<PreparedScan>& scans, const PoseGraph& graph, const Resolutions& resolutions,
@@ -58,7 +109,11 @@ void adjust_and_verify(const std::vector<PreparedScan>& scans, const PoseGraph& 
   while (true) {
     set.pairs = overlapping_pairs(scans, set.T_reference_scan, set.placed, kMinLinkOverlap, context.num_threads);
     set.adjustment = adjust_poses(scans, set.pairs, set.reference, resolutions, options, context, set.T_reference_scan);
-    const std::optional<std::size_t> worst = verify_members(scans, graph, context, set);
+    std::optional<std::size_t> worst = verify_members(scans, graph, context, set);
+    if (const std::size_t best = best_reference(set); !worst && options.reference.empty() && best != set.reference) {
+      move_reference(best, graph, set);
+      worst = verify_members(scans, graph, context, set);  // the old reference had not been judged
+    }
     if (!worst) return;
     set.placed[*worst] = false;
   }

@@ -29,4 +29,9 @@ double rival_log_odds(double consensus, double rival_consensus) {
   return 3 * std::min(0.0, log_of(consensus, kLeastConsensus) - log_of(rival_consensus, kLeastConsensus));
 }
 
+double misfit_log_odds(double residual_m, double typical_residual_m) {
+  if (!(typical_residual_m > 0)) return 0;
+  return -4 * std::max(0.0, std::log(residual_m / typical_residual_m / 2));
+}
+
 }  // namespace tcm_icp

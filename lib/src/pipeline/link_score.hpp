@@ -15,6 +15,11 @@ double link_log_odds(const AlignmentEvidence& evidence, const PoseCandidate& can
 /// looked at by the same points, so their consensus tells them apart better than where they came from.
 double rival_log_odds(double consensus, double rival_consensus);
 
+/// What a placed scan loses where it fits worse than its set does: 0 up to twice the typical median residual, then four
+/// times the logarithm. Scans of one set lie within 1.9 times of it where they are right; a mirrored building that no
+/// other evidence told from the real one had 4.8 times.
+double misfit_log_odds(double residual_m, double typical_residual_m);
+
 /// Links above this stand by themselves.
 constexpr double kClearLogOdds = 3;
 

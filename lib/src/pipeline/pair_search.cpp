@@ -92,6 +92,16 @@ PairSearch::PairSearch(const std::vector<PreparedScan>& scans, const std::vector
     : impl_(new Impl(scans, files, options, context)) {}
 PairSearch::~PairSearch() = default;
 
+void PairSearch::leave_out(std::size_t a, std::size_t b) { impl_->state(a, b) = Tried::kBoth; }
+
+void PairSearch::run(PoseGraph& graph) {
+  std::vector<bool> wanted(impl_->scans.size(), true);
+  // More is asked where links leave scans apart.
+  while (std::find(wanted.begin(), wanted.end(), true) != wanted.end() && extend(graph, wanted)) {
+    wanted = graph.outside_of_largest_group();
+  }
+}
+
 bool PairSearch::extend(PoseGraph& graph, const std::vector<bool>& wanted) {
   if (const ScanPairs pairs = impl_->pairs(Tried::kNothing, wanted); !pairs.empty()) {
     impl_->context.report("comparing height maps", 0, pairs.size());

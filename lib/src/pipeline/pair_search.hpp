@@ -20,6 +20,13 @@ class PairSearch {
              const PipelineOptions& options, const RunContext& context);
   ~PairSearch();
 
+  /// Never tries this pair.
+  void leave_out(std::size_t a, std::size_t b);
+
+  /// Tries all pairs by height maps, and the pairs of scans that clear links did not join to the largest group by
+  /// features.
+  void run(PoseGraph& graph);
+
   /// Tries the pairs of `wanted` scans with any other by the next method that they were not tried by: height maps, then
   /// features. Links go to the graph. False where no pair was left.
   /// Cost: some 50 ms of processor time a pair and method; grows with the square of the number of scans.

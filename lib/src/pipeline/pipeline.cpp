@@ -5,6 +5,7 @@
 #include <string>
 
 #include "adjusted_set.hpp"
+#include "group_joining.hpp"
 #include "link_verification.hpp"
 #include "merging.hpp"
 #include "pair_search.hpp"
@@ -71,11 +72,7 @@ class Run {
       result_.graph = compare_scans(scans_, values_of(T_init_), options_, context_);
     } else {
       pair_search_.emplace(scans_, files_, options_, context_);
-      // More is asked where links leave scans apart.
-      std::vector<bool> wanted(scans_.size(), true);
-      while (std::find(wanted.begin(), wanted.end(), true) != wanted.end() && pair_search_->extend(graph_, wanted)) {
-        wanted = graph_.outside_of_largest_group();
-      }
+      pair_search_->run(graph_);
       result_.graph = graph_.correspondence_graph(std::vector<bool>(scans_.size(), true));
     }
     if (options_.reference.empty()) result_.reference = result_.graph.reference;
@@ -99,15 +96,48 @@ class Run {
       if (rest.degree(rest.reference) == 0) break;
       reference = rest.reference;
     }
+    if (pair_search_) join();
     choose_main_group();
   }
 
-  // The largest group is what the user wants; a scan that links promised much of may hold little.
-  void choose_main_group() {
-    if (options_.reference.empty()) {
-      std::stable_sort(components_.begin(), components_.end(),
-                       [](const AdjustedSet& a, const AdjustedSet& b) { return a.num_placed() > b.num_placed(); });
+  MergeInput merge_input() const { return {scans_, files_, T_init_, graph_, options_, context_}; }
+
+  // Groups that no link joined, by all that each of them saw; as long as that leaves more scans in one frame.
+  void join() {
+    while (components_.size() > 1 || components_.front().num_placed() < scans_.size()) {
+      sort_components();
+      clock_.begin("join groups");
+      std::optional<GroupJoin> found = join_groups(merge_input(), resolutions_, components_, result_.merges);
+      if (!found) break;
+      complete(found->set);
+      std::size_t largest = 0;
+      for (const std::size_t part : found->parts) largest = std::max(largest, components_[part].num_placed());
+      if (found->set.num_placed() <= largest) {
+        context_.debug("not joined: only " + std::to_string(found->set.num_placed()) + " scans hold together");
+        for (std::size_t i = 0; i < scans_.size(); ++i) {
+          if (!found->set.placed[i]) context_.debug(files_[i] + ": " + found->set.reasons[i]);
+        }
+        break;
+      }
+      components_[found->parts.front()] = std::move(found->set);
+      std::vector<AdjustedSet> kept;
+      for (std::size_t k = 0; k < components_.size(); ++k) {
+        const bool joined = std::find(found->parts.begin() + 1, found->parts.end(), k) != found->parts.end();
+        if (!joined) kept.push_back(std::move(components_[k]));
+      }
+      components_ = std::move(kept);
     }
+  }
+
+  // The largest group is what the user wants; a scan that links promised much of may hold little.
+  void sort_components() {
+    if (!options_.reference.empty()) return;
+    std::stable_sort(components_.begin(), components_.end(),
+                     [](const AdjustedSet& a, const AdjustedSet& b) { return a.num_placed() > b.num_placed(); });
+  }
+
+  void choose_main_group() {
+    sort_components();
     result_.reference = result_.graph.reference = components_.front().reference;
     result_.adjustment = components_.front().adjustment;
     result_.uncertainty = components_.front().uncertainty;
@@ -118,22 +148,24 @@ class Run {
 
   AdjustedSet build_component(std::size_t reference, const std::vector<bool>& wanted) {
     clock_.begin("merge");
-    const MergeInput input{scans_, files_, T_init_, graph_, options_, context_};
-    Merging merging(input, reference, wanted);
+    Merging merging(merge_input(), reference, wanted);
     const std::size_t first = result_.merges.size();
     merging.run(result_.merges);
     // Scans that found no place may have links that were not tried yet.
     while (pair_search_ && pair_search_->extend(graph_, merging.unplaced())) merging.run(result_.merges);
-    AdjustedSet set;
-    set.reference = reference;
+    AdjustedSet set = set_of_one(reference, scans_.size());
     set.placed = merging.placed();
     set.T_reference_scan = merging.T_reference_scan();
-    set.evidence.assign(scans_.size(), std::nullopt);
-    set.reasons.assign(scans_.size(), "no link to another scan was found");
     for (std::size_t k = first; k < result_.merges.size(); ++k) {
       set.evidence[result_.merges[k].scan] = result_.merges[k].evidence;
       set.reasons[result_.merges[k].scan] = result_.merges[k].reason;
     }
+    complete(set);
+    return set;
+  }
+
+  // Poses adjusted and judged, links between members measured.
+  void complete(AdjustedSet& set) {
     if (paper()) {
       set.pairs = overlapping_pairs(scans_, set.T_reference_scan, set.placed, kMinLinkOverlap, context_.num_threads);
     } else {
@@ -142,10 +174,9 @@ class Run {
     }
     set.links = verify_links(scans_, set.pairs, set.T_reference_scan, context_.num_threads);
     if (!paper()) {
-      measure_uncertainty(scans_, set.pairs, reference, resolutions_, set.T_reference_scan, context_.num_threads,
+      measure_uncertainty(scans_, set.pairs, set.reference, resolutions_, set.T_reference_scan, context_.num_threads,
                           set.uncertainty, set.links);
     }
-    return set;
   }
 
   void report_poses() {

@@ -45,6 +45,7 @@ Json to_json(const MergeRecord& m, const PipelineResult& result) {
       {"tcm", {{"tau", number(m.tcm.tau())}, {"f", number(m.tcm.f)}, {"g", number(m.tcm.g)}, {"h", number(m.tcm.h)}}},
       {"simplex", to_json(m.simplex)},
       {"searched_by_annealing", m.searched}};
+  for (const std::size_t i : m.members) j["members"].push_back(result.scans[i].file);
   if (m.descent) j["descent"] = to_json(*m.descent);
   if (m.annealing) j["annealing"] = to_json(*m.annealing);
   if (m.evidence) j["evidence"] = to_json(*m.evidence);
