@@ -1,5 +1,7 @@
 #include "tcm_icp/coarse/height_correlation.hpp"
 
+#include <algorithm>
+
 #include "support/matchers.hpp"
 #include "support/random_points.hpp"
 #include "support/synthetic_scene.hpp"
@@ -75,6 +77,24 @@ TEST(HeightCorrelation, HasNoMarginForAStranger) {
     EXPECT_LT(found[stranger].front().score, found[0].front().score);
     EXPECT_LT(found[stranger].front().margin, found[0].front().margin);
   }
+}
+
+TEST(HeightCorrelation, ScreeningRanksScansOfOnePlaceBeforeAStranger) {
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    Rng rng = make_stream(seed, "test");
+    const SyntheticScene here = yard(0.02, 0, rng);
+    const SyntheticScene there =
+        synthetic_scene({.shape = SyntheticShape::kRubble, .num_scans = 1, .points_per_scan = 20000}, rng);
+    std::vector<const Cloud*> scans = pointers(here.scans);
+    scans.push_back(&there.scans[0]);
+    const std::vector<ScanPair> pairs = {{0, 1}, {0, 2}, {1, 2}, {0, 3}, {1, 3}, {3, 2}};
+    const auto scores = screen_by_height_maps(scans, pairs, screening_options(), 2);
+    const double least = *std::min_element(scores.begin(), scores.begin() + 3);
+    const double most = *std::max_element(scores.begin() + 3, scores.end());
+    EXPECT_GT(least, 1.2 * most);
+    EXPECT_EQ(screen_by_height_maps(scans, pairs, screening_options(), 1), scores) << "threads change nothing";
+  }
+  EXPECT_THROW(screen_by_height_maps({}, {{0, 1}}, screening_options(), 1), InvalidInput);
 }
 
 TEST(HeightCorrelation, IsTheSameForAnyNumberOfThreads) {

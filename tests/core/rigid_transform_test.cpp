@@ -7,6 +7,8 @@
 #include <numbers>
 
 #include "support/matchers.hpp"
+#include "support/random_points.hpp"
+#include "support/synthetic_scene.hpp"
 
 namespace tcm_icp {
 namespace {
@@ -80,7 +82,19 @@ TEST(RigidTransform, RmsDisplacementOfATurnIsWorkedOutByHand) {
   // Half a turn about z moves (1,0,0) by 2 and (3,0,0) by 6: sqrt((4 + 36) / 2).
   const Eigen::Isometry3d half_turn(Eigen::AngleAxisd(kPi, Eigen::Vector3d::UnitZ()));
   EXPECT_NEAR(rms_displacement(half_turn, {{1, 0, 0}, {3, 0, 0}}), std::sqrt(20.0), 1e-14);
-  EXPECT_TRUE(std::isnan(rms_displacement(half_turn, {})));
+  EXPECT_TRUE(std::isnan(rms_displacement(half_turn, Points{})));
+}
+
+TEST(RigidTransform, MomentsTellTheRmsDisplacement) {
+  Rng rng = make_stream(5, "rigid_transform_test");
+  for (int k = 0; k < 20; ++k) {
+    const Points points = testing::random_points(50, 30, rng);
+    const Eigen::Isometry3d E = testing::random_pose(20, rng);
+    const double by_points = rms_displacement(E, points);
+    EXPECT_NEAR(rms_displacement(E, PointMoments(points)), by_points, 1e-12 * by_points);
+  }
+  EXPECT_EQ(rms_displacement(Eigen::Isometry3d::Identity(), PointMoments({{1, 2, 3}, {4, 5, 7}})), 0);
+  EXPECT_TRUE(std::isnan(rms_displacement(Eigen::Isometry3d::Identity(), PointMoments(Points{}))));
 }
 
 TEST(RigidTransform, MovesPointsAndOnlyTurnsNormals) {

@@ -94,6 +94,52 @@ TEST(PairSearch, TriesThePairsOfWantedScansAlone) {
   EXPECT_EQ(tried(graph), (std::vector<Pair>{{0, 1}, {0, 2}, {1, 2}, {1, 3}, {2, 3}}));
 }
 
+TEST(PairSearch, NeverTriesWhatIsLeftOut) {
+  const PreparedScene s = yard(3, 2);
+  const auto files = names(3);
+  PairSearch search(s.scans, files, kOptions, kContext);
+  search.leave_out(2, 0);
+  PoseGraph graph(3);
+  while (search.extend(graph, std::vector<bool>(3, true))) {
+  }
+  EXPECT_EQ(tried(graph), (std::vector<Pair>{{0, 1}, {1, 2}}));
+}
+
+// Two places of eight scans each: a scan's own place comes before the other.
+TEST(PairSearch, ManyScansAreTriedWithTheirLikeliestPartnersFirst) {
+  constexpr std::size_t kEach = 8, kAll = 2 * kEach;
+  Rng rng = make_stream(6, "pair_search_test");
+  PreparedScene s = testing::prepared_scene({.num_scans = kEach, .points_per_scan = 3000}, rng);
+  const PreparedScene other = testing::prepared_scene(
+      {.shape = testing::SyntheticShape::kRubble, .num_scans = kEach, .points_per_scan = 3000}, rng);
+  for (std::size_t i = 0; i < kEach; ++i) {
+    s.scans.push_back(
+        prepare_scan(testing::sampled(other.scene.scans[i], std::to_string(kEach + i)), s.resolutions, {}, 42));
+  }
+  const auto files = names(kAll);
+  PairSearch search(s.scans, files, kOptions, kContext);
+  PoseGraph graph(kAll);
+  ASSERT_TRUE(search.extend(graph, std::vector<bool>(kAll, true)));
+  const auto first = tried(graph);
+  EXPECT_LT(first.size(), kAll * (kAll - 1) / 2);
+  for (std::size_t a = 0; a < kEach; ++a) {
+    for (std::size_t b = a + 1; b < kEach; ++b) {
+      EXPECT_TRUE(std::find(first.begin(), first.end(), Pair(a, b)) != first.end()) << a << " " << b;
+    }
+  }
+  // One that nothing was found for gets all others in the end.
+  std::vector<bool> wanted(kAll, false);
+  wanted[3] = true;
+  while (search.extend(graph, wanted)) {
+  }
+  const auto last = tried(graph);
+  for (std::size_t b = 0; b < kAll; ++b) {
+    if (b == 3) continue;
+    const Pair pair(std::min<std::size_t>(3, b), std::max<std::size_t>(3, b));
+    EXPECT_TRUE(std::find(last.begin(), last.end(), pair) != last.end()) << b;
+  }
+}
+
 TEST(PairSearch, AStrangerHasNoClearLink) {
   PreparedScene s = yard(2, 4);
   Rng rng = make_stream(4, "pair_search_test rubble");

@@ -53,8 +53,8 @@ struct Search {
 
   void find_footprints(const std::vector<const Cloud*>& clouds);
   void choose_grid();
-  void make_maps(const std::vector<const Cloud*>& clouds);
-  std::vector<PeakList> correlate(const std::vector<ScanPair>& pairs);
+  void make_maps(const std::vector<const Cloud*>& clouds, bool for_candidates);
+  std::vector<PeakList> correlate(const std::vector<ScanPair>& pairs, std::size_t num_peaks);
   std::vector<PoseCandidate> candidates(const ScanPair& pair, const PeakList& peaks) const;
   double min_shared(const HeightMap& a, const HeightMap& b) const {
     return std::max(30.0, options.min_shared_share * std::min(a.num_seen, b.num_seen));
@@ -87,16 +87,18 @@ void Search::choose_grid() {
   grid_size = fast_size(static_cast<int>(kPadding * largest_m / cell_m));
 }
 
-void Search::make_maps(const std::vector<const Cloud*>& clouds) {
+void Search::make_maps(const std::vector<const Cloud*>& clouds, bool for_candidates) {
   const Fourier fourier(grid_size);
   parallel_for(num_threads, scans.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       for (const auto& footprint : scans[i].footprints) {
         scans[i].maps.push_back(make_height_map(*clouds[i], footprint, cell_m, options.map));
         const HeightMap& map = scans[i].maps.back();
-        scans[i].cells.push_back(list_cells(map, kCellsRefined));
-        scans[i].fine_maps.push_back(make_height_map(*clouds[i], footprint, cell_m / kFineScale, options.map));
-        scans[i].fine_cells.push_back(list_cells(scans[i].fine_maps.back(), kCellsFine));
+        if (for_candidates) {
+          scans[i].cells.push_back(list_cells(map, kCellsRefined));
+          scans[i].fine_maps.push_back(make_height_map(*clouds[i], footprint, cell_m / kFineScale, options.map));
+          scans[i].fine_cells.push_back(list_cells(scans[i].fine_maps.back(), kCellsFine));
+        }
         scans[i].upright.push_back(transform(upright_images(map, false, grid_size), fourier));
         scans[i].quarter_turned.push_back(transform(upright_images(map, true, grid_size), fourier));
       }
@@ -104,9 +106,9 @@ void Search::make_maps(const std::vector<const Cloud*>& clouds) {
   });
 }
 
-std::vector<PeakList> Search::correlate(const std::vector<ScanPair>& pairs) {
+std::vector<PeakList> Search::correlate(const std::vector<ScanPair>& pairs, std::size_t num_peaks) {
   const double distinct_cells = kDistinctShare * options.cells_across;
-  std::vector<PeakList> lists(pairs.size(), PeakList(kPeaksRefined, 1.5 * heading_step_rad(), distinct_cells / 2));
+  std::vector<PeakList> lists(pairs.size(), PeakList(num_peaks, 1.5 * heading_step_rad(), distinct_cells / 2));
   const Fourier fourier(grid_size), mask_fourier(grid_size / kMaskStep);
   // All scans at one heading, then all pairs: memory stays at one spectrum a scan.
   for (int step = 0; step < steps_per_quarter(); ++step) {
@@ -214,24 +216,49 @@ void HeightCorrelationOptions::validate() const {
   map.validate();
 }
 
+namespace {
+
+void check_pairs(std::size_t num_scans, const std::vector<ScanPair>& pairs) {
+  for (const auto& pair : pairs) {
+    if (pair.target >= num_scans || pair.source >= num_scans) {
+      throw InvalidInput("a pair of scans " + std::to_string(pair.target) + " and " + std::to_string(pair.source) +
+                         " in a set of " + std::to_string(num_scans));
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<double> screen_by_height_maps(const std::vector<const Cloud*>& scans, const std::vector<ScanPair>& pairs,
+                                          const HeightCorrelationOptions& options, int num_threads) {
+  options.validate();
+  check_pairs(scans.size(), pairs);
+  std::vector<double> out(pairs.size(), 0.0);
+  if (pairs.empty()) return out;
+  Search search{options, num_threads, {}};
+  search.find_footprints(scans);
+  search.choose_grid();
+  search.make_maps(scans, false);
+  const auto lists = search.correlate(pairs, 1);
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    if (!lists[k].peaks().empty()) out[k] = lists[k].peaks().front().score;
+  }
+  return out;
+}
+
 std::vector<std::vector<PoseCandidate>> correlate_height_maps(const std::vector<const Cloud*>& scans,
                                                               const std::vector<ScanPair>& pairs,
                                                               const HeightCorrelationOptions& options,
                                                               int num_threads) {
   options.validate();
-  for (const auto& pair : pairs) {
-    if (pair.target >= scans.size() || pair.source >= scans.size()) {
-      throw InvalidInput("a pair of scans " + std::to_string(pair.target) + " and " + std::to_string(pair.source) +
-                         " in a set of " + std::to_string(scans.size()));
-    }
-  }
+  check_pairs(scans.size(), pairs);
   std::vector<std::vector<PoseCandidate>> out(pairs.size());
   if (pairs.empty()) return out;
   Search search{options, num_threads, {}};
   search.find_footprints(scans);
   search.choose_grid();
-  search.make_maps(scans);
-  const auto lists = search.correlate(pairs);
+  search.make_maps(scans, true);
+  const auto lists = search.correlate(pairs, kPeaksRefined);
   parallel_for(num_threads, pairs.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) out[k] = search.candidates(pairs[k], lists[k]);
   });

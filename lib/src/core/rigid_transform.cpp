@@ -43,6 +43,21 @@ double rms_displacement(const Eigen::Isometry3d& E, const Points& points) {
   return std::sqrt(sum / static_cast<double>(points.size()));
 }
 
+PointMoments::PointMoments(const Points& points) {
+  const auto count = static_cast<double>(points.size());
+  for (const auto& p : points) mean += p;
+  mean /= count;
+  for (const auto& p : points) covariance += (p - mean) * (p - mean).transpose();
+  covariance /= count;
+}
+
+// E p - p = A p + t with A = R - I: its mean square is that of the mean point, and what A makes of the spread.
+double rms_displacement(const Eigen::Isometry3d& E, const PointMoments& moments) {
+  const Eigen::Matrix3d A = E.linear() - Eigen::Matrix3d::Identity();
+  return std::sqrt((A * moments.mean + E.translation()).squaredNorm() +
+                   (A * moments.covariance * A.transpose()).trace());
+}
+
 Cloud transformed(const Cloud& cloud, const Eigen::Isometry3d& T_target_source) {
   Cloud out;
   out.points.reserve(cloud.points.size());

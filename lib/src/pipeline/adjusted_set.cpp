@@ -42,7 +42,7 @@ std::optional<std::size_t> verify_members(const std::vector<PreparedScan>& scans
       set.evidence[i]->runner_up = at_merge.runner_up;
       set.evidence[i]->searched = at_merge.searched;
       if (std::isnan(at_merge.link_log_odds)) continue;
-      const Points& points = scans[i].held_out_sample.points;
+      const PointMoments& points = scans[i].moments;
       const StartPose support = graph.support(i, set.placed, set.T_reference_scan, points,
                                               kSameLinkPose * scans[i].pyramid.level(0).voxel_size_m);
       set.evidence[i]->link_log_odds = support.log_odds + set.group_log_odds[i];

@@ -64,10 +64,8 @@ double support_of_members(const AdjustedSet& a, const AdjustedSet& b, const Eige
   double sum = 0;
   for (const std::size_t i : members_of(b)) {
     T_a_scan[i] = T_a_b * b.T_reference_scan[i];
-    sum +=
-        input.graph
-            .support(i, a.placed, T_a_scan, input.scans[i].held_out_sample.points, kSameLinkPose * resolutions.coarse_m)
-            .log_odds;
+    sum += input.graph.support(i, a.placed, T_a_scan, input.scans[i].moments, kSameLinkPose * resolutions.coarse_m)
+               .log_odds;
   }
   return sum;
 }
@@ -134,8 +132,7 @@ std::optional<GroupJoin> join_groups(const MergeInput& input, const Resolutions&
     for (std::size_t b = a + 1; b < n; ++b) {
       // One by one: each is fitted, however many there are.
       for (const PoseCandidate& c : candidates_of_members(groups.sets[a], groups.sets[b], input.graph)) {
-        found.add(fit_candidates(clouds, a, b, {c}, input.options), clouds[b].held_out_sample.points,
-                  group_resolutions.coarse_m);
+        found.add(fit_candidates(clouds, a, b, {c}, input.options), clouds[b].moments, group_resolutions.coarse_m);
       }
     }
   }

@@ -60,7 +60,7 @@ AlignmentEvidence evidence_of(const PreparedScan& a, const PreparedScan& b, cons
 
 }  // namespace
 
-void CandidateLink::rank(const Points& points_b, double voxel_m) {
+void CandidateLink::rank(const PointMoments& points_b, double voxel_m) {
   for (auto& h : hypotheses) {
     double rival = 0;
     for (const auto& other : hypotheses) {

@@ -9,6 +9,7 @@
 #include "adjustment.hpp"
 #include "prepared_scan.hpp"
 #include "tcm_icp/coarse/pose_candidate.hpp"
+#include "tcm_icp/core/rigid_transform.hpp"
 #include "tcm_icp/core/run_context.hpp"
 #include "verdict.hpp"
 
@@ -33,7 +34,7 @@ struct CandidateLink {
 
   /// Scores all hypotheses anew, against one another too, and puts the likeliest first.
   /// @param points_b  of scan b, to tell poses apart by
-  void rank(const Points& points_b, double voxel_m);
+  void rank(const PointMoments& points_b, double voxel_m);
   void swap();  ///< the same link, the other scan first
   /// The pose of one of the two scans in the other's frame.
   Eigen::Isometry3d T_other(std::size_t scan, const LinkHypothesis& hypothesis) const {

@@ -82,7 +82,7 @@ std::vector<Merging::Choice> Merging::choices(bool with_weak_links) {
       continue;
     }
     std::vector<StartPose> starts =
-        in_.graph.start_poses(j, placed_, T_reference_scan_, in_.scans[j].held_out_sample.points, same_m());
+        in_.graph.start_poses(j, placed_, T_reference_scan_, in_.scans[j].moments, same_m());
     const double least = with_weak_links ? kMinLinkLogOdds : kStrongLogOdds;
     if (starts.empty() || starts.front().log_odds < least) continue;
     const std::size_t num_hypotheses = in_.graph.num_hypotheses(j, placed_);
@@ -115,8 +115,7 @@ void Merging::compute_tcm(const std::vector<Choice>& choices, std::vector<MergeC
 void Merging::ask_links(std::size_t scan, const Eigen::Isometry3d& T, MergeRecord& record) {
   if (!record.evidence) return;
   T_reference_scan_[scan] = T;
-  const StartPose support =
-      in_.graph.support(scan, placed_, T_reference_scan_, in_.scans[scan].held_out_sample.points, same_m());
+  const StartPose support = in_.graph.support(scan, placed_, T_reference_scan_, in_.scans[scan].moments, same_m());
   record.evidence->link_log_odds = support.log_odds;
   record.evidence->num_links = support.num_links;
   const Verdict verdict = judge(*record.evidence);

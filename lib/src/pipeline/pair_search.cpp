@@ -1,6 +1,7 @@
 #include "pair_search.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "link_search.hpp"
 #include "tcm_icp/coarse/feature_alignment.hpp"
@@ -11,6 +12,9 @@ namespace tcm_icp {
 
 // Height maps first: they are cheap and cover a whole set at once. Local features are asked where those left scans
 // alone.
+// A scan overlaps few others much. Where there are more, all pairs are ranked at little cost first.
+constexpr std::size_t kFirstPartners = 10;
+
 enum class Tried : char { kNothing, kHeightMaps, kBoth };
 
 struct PairSearch::Impl {
@@ -23,29 +27,95 @@ struct PairSearch::Impl {
   const PipelineOptions& options;
   const RunContext& context;
   std::vector<Tried> tried;  // by pair, a * n + b
+  std::vector<std::vector<std::size_t>> partners;
+  std::vector<std::size_t> reach;  // how many of them were asked for, of each scan
   FeatureAlignmentOptions features;
   std::vector<DescribedScan> described;  // once they are asked for
 
   Tried& state(std::size_t a, std::size_t b) { return tried[std::min(a, b) * scans.size() + std::max(a, b)]; }
 
-  /// Target first: the scan whose file comes first by name, so that the order of the files decides nothing.
+  /// The pair, the scan whose file comes first by name as the target, so that the order of the files decides nothing.
+  std::pair<std::size_t, std::size_t> ordered(std::size_t a, std::size_t b) const {
+    return files[a] < files[b] ? std::pair(a, b) : std::pair(b, a);
+  }
+
+  /// Pairs of the state wanted, of each wanted scan with its likeliest partners.
   ScanPairs pairs(Tried state_wanted, const std::vector<bool>& wanted) {
+    std::vector<bool> chosen(scans.size() * scans.size(), false);
+    for (std::size_t i = 0; i < scans.size(); ++i) {
+      if (!wanted[i]) continue;
+      for (std::size_t k = 0; k < std::min(reach[i], partners[i].size()); ++k) {
+        const std::size_t j = partners[i][k];
+        chosen[std::min(i, j) * scans.size() + std::max(i, j)] = true;
+      }
+    }
     ScanPairs out;
     for (std::size_t a = 0; a < scans.size(); ++a) {
       for (std::size_t b = a + 1; b < scans.size(); ++b) {
-        if ((wanted[a] || wanted[b]) && state(a, b) == state_wanted) {
-          out.push_back(files[a] < files[b] ? std::pair(a, b) : std::pair(b, a));
-        }
+        if (chosen[a * scans.size() + b] && state(a, b) == state_wanted) out.push_back(ordered(a, b));
       }
     }
     return out;
   }
 
+  /// Of each scan all others, the likeliest to overlap first.
+  void rank_partners() {
+    const std::size_t n = scans.size();
+    if (!partners.empty()) return;
+    partners.resize(n);
+    reach.assign(n, kFirstPartners);
+    std::vector<double> score(n * n, 0.0);
+    if (n > kFirstPartners + 1) {
+      context.report("ranking pairs", 0, n * (n - 1) / 2);
+      std::vector<const Cloud*> clouds;
+      for (const auto& s : scans) clouds.push_back(&s.fine.cloud);
+      std::vector<ScanPair> all;
+      for (std::size_t a = 0; a < n; ++a) {
+        for (std::size_t b = a + 1; b < n; ++b) {
+          const auto [target, source] = ordered(a, b);
+          all.push_back({target, source});
+        }
+      }
+      const auto scores = screen_by_height_maps(clouds, all, screening_options(), context.num_threads);
+      for (std::size_t k = 0; k < all.size(); ++k) {
+        score[all[k].target * n + all[k].source] = score[all[k].source * n + all[k].target] = scores[k];
+      }
+    }
+    for (std::size_t i = 0; i < n; ++i) {
+      for (std::size_t j = 0; j < n; ++j) {
+        if (j != i) partners[i].push_back(j);
+      }
+      std::stable_sort(partners[i].begin(), partners[i].end(), [&](std::size_t x, std::size_t y) {
+        const double a = score[i * n + x], b = score[i * n + y];
+        return a != b ? a > b : files[x] < files[y];
+      });
+    }
+  }
+
+  /// Twice as many partners for the wanted scans; false where they had all.
+  bool reach_further(const std::vector<bool>& wanted) {
+    bool more = false;
+    for (std::size_t i = 0; i < scans.size(); ++i) {
+      if (!wanted[i] || reach[i] >= partners[i].size()) continue;
+      reach[i] *= 2;
+      more = true;
+    }
+    return more;
+  }
+
   std::vector<std::vector<PoseCandidate>> by_height_maps(const ScanPairs& pairs) const {
-    std::vector<const Cloud*> clouds;
-    for (const auto& s : scans) clouds.push_back(&s.fine.cloud);
+    constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+    std::vector<const Cloud*> clouds;  // of the scans that are in a pair
+    std::vector<std::size_t> place(scans.size(), kNone);
     std::vector<ScanPair> wanted;
-    for (const auto& [a, b] : pairs) wanted.push_back({a, b});
+    for (const auto& [a, b] : pairs) {
+      for (const std::size_t i : {a, b}) {
+        if (place[i] != kNone) continue;
+        place[i] = clouds.size();
+        clouds.push_back(&scans[i].fine.cloud);
+      }
+      wanted.push_back({place[a], place[b]});
+    }
     return correlate_height_maps(clouds, wanted, {}, context.num_threads);
   }
 
@@ -82,7 +152,7 @@ struct PairSearch::Impl {
     for (auto& link : links) {
       if (link.a > link.b) link.swap();
       const PreparedScan& b = scans[link.b];
-      graph.add(link, b.held_out_sample.points, b.pyramid.level(0).voxel_size_m);
+      graph.add(link, b.moments, b.pyramid.level(0).voxel_size_m);
     }
   }
 };
@@ -103,18 +173,21 @@ void PairSearch::run(PoseGraph& graph) {
 }
 
 bool PairSearch::extend(PoseGraph& graph, const std::vector<bool>& wanted) {
-  if (const ScanPairs pairs = impl_->pairs(Tried::kNothing, wanted); !pairs.empty()) {
-    impl_->context.report("comparing height maps", 0, pairs.size());
-    impl_->fit(pairs, impl_->by_height_maps(pairs), graph);
-    for (const auto& [a, b] : pairs) impl_->state(a, b) = Tried::kHeightMaps;
-    return true;
-  }
-  if (const ScanPairs pairs = impl_->pairs(Tried::kHeightMaps, wanted); !pairs.empty()) {
-    impl_->context.report("comparing features", 0, pairs.size());
-    impl_->fit(pairs, impl_->by_features(pairs), graph);
-    for (const auto& [a, b] : pairs) impl_->state(a, b) = Tried::kBoth;
-    return true;
-  }
+  impl_->rank_partners();
+  do {
+    if (const ScanPairs pairs = impl_->pairs(Tried::kNothing, wanted); !pairs.empty()) {
+      impl_->context.report("comparing height maps", 0, pairs.size());
+      impl_->fit(pairs, impl_->by_height_maps(pairs), graph);
+      for (const auto& [a, b] : pairs) impl_->state(a, b) = Tried::kHeightMaps;
+      return true;
+    }
+    if (const ScanPairs pairs = impl_->pairs(Tried::kHeightMaps, wanted); !pairs.empty()) {
+      impl_->context.report("comparing features", 0, pairs.size());
+      impl_->fit(pairs, impl_->by_features(pairs), graph);
+      for (const auto& [a, b] : pairs) impl_->state(a, b) = Tried::kBoth;
+      return true;
+    }
+  } while (impl_->reach_further(wanted));
   return false;
 }
 

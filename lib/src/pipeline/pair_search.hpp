@@ -29,7 +29,9 @@ class PairSearch {
 
   /// Tries the pairs of `wanted` scans with any other by the next method that they were not tried by: height maps, then
   /// features. Links go to the graph. False where no pair was left.
-  /// Cost: some 50 ms of processor time a pair and method; grows with the square of the number of scans.
+  /// Each scan is tried with the ten others it most likely overlaps with, by coarse height maps; once they were tried
+  /// by both methods, wanted scans are tried with twice as many. Cost: some 50 ms of processor time a pair and method,
+  /// 1 ms to rank a pair.
   bool extend(PoseGraph& graph, const std::vector<bool>& wanted);
 
  private:

@@ -246,7 +246,7 @@ class Run {
             Eigen::Translation3d(sampled_[a].scan.origin) * h.T_a_b * Eigen::Translation3d(-sampled_[b].scan.origin);
         if (both != components_.end()) {
           const Eigen::Isometry3d T_a_b = both->T_reference_scan[a].inverse() * both->T_reference_scan[b];
-          const double apart_m = rms_displacement(T_a_b.inverse() * h.T_a_b, scans_[b].held_out_sample.points);
+          const double apart_m = rms_displacement(T_a_b.inverse() * h.T_a_b, scans_[b].moments);
           record.fate = apart_m < same_m ? "confirmed" : "contradicted";
         }
         result_.hypotheses.push_back(record);

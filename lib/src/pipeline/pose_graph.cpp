@@ -15,14 +15,14 @@ void PoseGraph::add(const CandidateLink& link) {
                    [](const LinkHypothesis& x, const LinkHypothesis& y) { return x.log_odds > y.log_odds; });
 }
 
-void PoseGraph::add(const CandidateLink& link, const Points& points_b, double voxel_m) {
+void PoseGraph::add(const CandidateLink& link, const PointMoments& points_b, double voxel_m) {
   add(link);
   links_.at({link.a, link.b}).rank(points_b, voxel_m);
 }
 
 std::vector<StartPose> PoseGraph::start_poses(std::size_t scan, const std::vector<bool>& placed,
                                               const std::vector<Eigen::Isometry3d>& T_reference_scan,
-                                              const Points& points, double same_m) const {
+                                              const PointMoments& points, double same_m) const {
   std::vector<std::pair<double, Eigen::Isometry3d>> singles;
   for_each_link(scan, placed, [&](std::size_t other, const CandidateLink& link) {
     for (const auto& h : link.hypotheses)
@@ -45,7 +45,7 @@ std::vector<StartPose> PoseGraph::start_poses(std::size_t scan, const std::vecto
 }
 
 StartPose PoseGraph::support(std::size_t scan, const std::vector<bool>& placed,
-                             const std::vector<Eigen::Isometry3d>& T_reference_scan, const Points& points,
+                             const std::vector<Eigen::Isometry3d>& T_reference_scan, const PointMoments& points,
                              double same_m) const {
   StartPose out{T_reference_scan[scan], 0, 0};
   for_each_link(scan, placed, [&](std::size_t other, const CandidateLink& link) {

@@ -10,6 +10,7 @@
 
 #include "link_search.hpp"
 #include "prepared_scan.hpp"
+#include "tcm_icp/core/rigid_transform.hpp"
 #include "tcm_icp/graph/correspondence_graph.hpp"
 
 namespace tcm_icp {
@@ -30,18 +31,19 @@ class PoseGraph {
   /// A pair's hypotheses join those it has, likeliest first. a < b.
   void add(const CandidateLink& link);
   /// The same, all ranked anew, since they are rivals.
-  void add(const CandidateLink& link, const Points& points_b, double voxel_m);
+  void add(const CandidateLink& link, const PointMoments& points_b, double voxel_m);
   const std::map<std::pair<std::size_t, std::size_t>, CandidateLink>& links() const { return links_; }
 
   /// Poses of `scan` that its links to placed scans lead to, likeliest first: those within `same_m` (rms over the scan)
   /// are one.
   std::vector<StartPose> start_poses(std::size_t scan, const std::vector<bool>& placed,
-                                     const std::vector<Eigen::Isometry3d>& T_reference_scan, const Points& points,
+                                     const std::vector<Eigen::Isometry3d>& T_reference_scan, const PointMoments& points,
                                      double same_m) const;
 
   /// What all links of `scan` to placed scans say of its pose T_reference_scan[scan].
   StartPose support(std::size_t scan, const std::vector<bool>& placed,
-                    const std::vector<Eigen::Isometry3d>& T_reference_scan, const Points& points, double same_m) const;
+                    const std::vector<Eigen::Isometry3d>& T_reference_scan, const PointMoments& points,
+                    double same_m) const;
 
   /// Of `scan`'s links to placed scans.
   std::size_t num_hypotheses(std::size_t scan, const std::vector<bool>& placed) const;

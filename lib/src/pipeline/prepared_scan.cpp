@@ -60,11 +60,13 @@ PreparedScan prepare_scan(const SampledScan& scan, const Resolutions& resolution
                    {},
                    {},
                    {},
+                   {},
                    {}};
   const std::string& file = scan.scan.file;
   out.coarse_sample =
       draw(voxel_downsample(scan.scan.cloud, resolutions.coarse_m), options.coarse_points, seed, "coarse points", file);
   draw_fit_and_held_out(out.pyramid.level(0).cloud, options, seed, file, out.fit_sample, out.held_out_sample);
+  out.moments = out.held_out_sample.points;
   out.fine_sample = draw(out.fine.cloud, options.fine_points, seed, "fine points", file);
   out.share = make_stream(seed, "adjustment share", file)();
   out.tcm_points = out.pyramid.level(std::min<std::size_t>(1, kNumPyramidLevels - 1)).cloud.points;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "scan_sampling.hpp"
+#include "tcm_icp/core/rigid_transform.hpp"
 #include "tcm_icp/registration/scan_pyramid.hpp"
 #include "tcm_icp/tcm/robust_tcm.hpp"
 
@@ -23,6 +24,7 @@ struct PreparedScan {
   Cloud coarse_sample;    ///< for coarse programs: every kind of point
   Cloud fit_sample;       ///< for fine programs: surfaces, at the coarse voxel
   Cloud held_out_sample;  ///< surfaces at the coarse voxel; in no fit
+  PointMoments moments;   ///< of held_out_sample
   Cloud fine_sample;      ///< surfaces at the fine voxel, for the adjustment
   Points tcm_points;      ///< thinned to the pyramid's second level
   /// Which of its neighbours' points it is adjusted with: from its file's name, so that the order of the files decides

@@ -28,6 +28,18 @@ bool is_rigid(const Eigen::Matrix4d& m, double tolerance);
 /// Root mean square distance [m] that `E` moves `points` by; NaN where there are none.
 double rms_displacement(const Eigen::Isometry3d& E, const Points& points);
 
+/// What of a set of points decides how far a rigid motion moves them in the mean.
+struct PointMoments {
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();        ///< [m]; NaN where there are no points
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< [m^2], about the mean
+
+  PointMoments() = default;
+  PointMoments(const Points& points);  // NOLINT: points have moments, whoever asks for them
+};
+
+/// The same from the points' moments, in constant time.
+double rms_displacement(const Eigen::Isometry3d& E, const PointMoments& moments);
+
 /// Points and normals moved by T_target_source.
 Cloud transformed(const Cloud& cloud, const Eigen::Isometry3d& T_target_source);
 

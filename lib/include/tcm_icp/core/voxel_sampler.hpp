@@ -29,9 +29,9 @@ struct VoxelKeyHash {
 /// Streaming voxel sampling. The voxel starts well below the points' spacing (a fixed share of the first points' median
 /// distance from their median, so that it scales and turns with the data) and doubles whenever more than `max_voxels`
 /// are occupied. Memory is O(max_voxels), whatever the number of points. Order of the voxels: by their first point.
-/// Once voxels have grown, neighbours whose means are nearer than half a voxel become one point: a place seen many times
-/// would otherwise be up to eight of them, wherever voxel borders run through it, and the neighbourhoods that normals
-/// come from would be that one place.
+/// Once voxels have grown, neighbours whose means are nearer than half a voxel become one point: a place seen many
+/// times would otherwise be up to eight of them, wherever voxel borders run through it, and the neighbourhoods that
+/// normals come from would be that one place.
 class VoxelSampler {
  public:
   /// @param max_voxels  >= 8; the sample has at most this many points
