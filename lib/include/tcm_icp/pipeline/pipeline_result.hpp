@@ -39,7 +39,8 @@ struct ScanSummary {
 /// One attempt to merge a scan into S.
 struct MergeRecord {
   std::size_t scan = 0;
-  std::vector<std::size_t> members;  ///< of the group that was merged as one, of which `scan` is the reference; else none
+  std::vector<std::size_t>
+      members;      ///< of the group that was merged as one, of which `scan` is the reference; else none
   int attempt = 1;  ///< a scan that fails is tried again when S, or what links it to S, has grown
   TcmTerms tcm;     ///< against S, before the simplex
   RegistrationResult simplex;
