@@ -51,6 +51,25 @@ TEST(Vertical, IsFoundWithItsSignWhateverTheFrame) {
   }
 }
 
+// A wall is the larger surface, and a scan from below a ceiling would be taken for one upside down.
+TEST(Vertical, OfALevelledScanIsZAsFloorsHaveIt) {
+  Rng rng = make_stream(8, "test");
+  Cloud floor{random_points(2000, 10, rng), {}};
+  for (auto& p : floor.points) p.z() = 0.01 * standard_normal(rng);
+  floor.normals.assign(floor.size(), Eigen::Vector3d::UnitZ());
+  VerticalOptions options;
+  options.levelled = true;
+  const Eigen::AngleAxisd tilt(4 * EIGEN_PI / 180, Eigen::Vector3d::UnitX());
+  const Cloud tilted = transformed(floor, Eigen::Isometry3d(tilt));
+  const auto directions = find_up_directions(tilted, options);
+  ASSERT_EQ(directions.size(), 1u);
+  EXPECT_LT(angle_deg(directions[0], tilt * Eigen::Vector3d::UnitZ()), 0.01);
+  const auto none = find_up_directions({floor.points, {}}, options);
+  EXPECT_EQ(none, std::vector<Eigen::Vector3d>{Eigen::Vector3d::UnitZ()}) << "no normals, no floors";
+  const Cloud wall = transformed(floor, Eigen::Isometry3d(Eigen::AngleAxisd(EIGEN_PI / 2, Eigen::Vector3d::UnitX())));
+  EXPECT_EQ(find_up_directions(wall, options), std::vector<Eigen::Vector3d>{Eigen::Vector3d::UnitZ()});
+}
+
 TEST(Vertical, TurnsWithTheCloud) {
   Rng rng = make_stream(2, "test");
   const Cloud level{ground_with_posts(rng, 0.02), {}};

@@ -7,6 +7,7 @@
 #include "pipeline/link_score.hpp"
 #include "pipeline/prepared_scene.hpp"
 #include "support/matchers.hpp"
+#include "tcm_icp/coarse/vertical.hpp"
 #include "tcm_icp/core/error.hpp"
 
 namespace tcm_icp {
@@ -92,6 +93,40 @@ TEST(PairSearch, TriesThePairsOfWantedScansAlone) {
   EXPECT_EQ(tried(graph), (std::vector<Pair>{{0, 2}, {1, 2}, {2, 3}}));
   ASSERT_TRUE(search.extend(graph, {false, true, false, false}));
   EXPECT_EQ(tried(graph), (std::vector<Pair>{{0, 1}, {0, 2}, {1, 2}, {1, 3}, {2, 3}}));
+}
+
+TEST(PairSearch, LevelledScansAreTriedUprightOnly) {
+  const PreparedScene upright = [] {
+    Rng rng = make_stream(4, "pair_search_test");
+    testing::SyntheticScene scene =
+        testing::synthetic_scene({.num_scans = 2, .points_per_scan = kPoints, .noise_m = 0.01}, rng);
+    PreparedScene out;
+    std::vector<SampledScan> scans;
+    for (std::size_t i = 0; i < 2; ++i) {
+      const Isometry3d T_turned_world(Eigen::AngleAxisd(2.0 + static_cast<double>(i), Eigen::Vector3d::UnitZ()));
+      const Isometry3d T_turned_scan = T_turned_world * scene.T_world_scan[i];
+      scene.scans[i] = transformed(scene.scans[i], T_turned_scan);
+      scene.T_world_scan[i] = T_turned_world.inverse();
+      scans.push_back(testing::sampled(scene.scans[i], std::to_string(i) + ".ply"));
+    }
+    out.resolutions = choose_resolutions(scans, {}, 1);
+    for (const auto& scan : scans) out.scans.push_back(prepare_scan(scan, out.resolutions, {}, 42));
+    out.scene = scene;
+    return out;
+  }();
+  PipelineOptions level;
+  level.level = true;
+  const auto files = names(2);
+  PairSearch search(upright.scans, files, level, kContext);
+  PoseGraph graph(2);
+  while (search.extend(graph, std::vector<bool>(2, true))) {
+  }
+  const auto& hypotheses = graph.links().at({0, 1}).hypotheses;
+  ASSERT_FALSE(hypotheses.empty());
+  EXPECT_LE(error_m(upright, {0, 1}, hypotheses.front()), 0.25 * upright.resolutions.coarse_m);
+  for (const auto& h : hypotheses) {
+    EXPECT_GT(h.candidate.T_target_source.linear()(2, 2), std::cos(2 * kMaxLevelTilt_deg * EIGEN_PI / 180));
+  }
 }
 
 TEST(PairSearch, NeverTriesWhatIsLeftOut) {

@@ -113,6 +113,13 @@ std::vector<Eigen::Vector3d> find_up_directions(const Cloud& cloud, const Vertic
   Eigen::Vector3d deviations;
   const Eigen::Matrix3d principal = principal_axes(cloud.points, deviations);
   if (!(deviations[2] > 0)) throw InvalidInput("all points of the cloud are equal: it has no vertical");
+  if (options.levelled) {
+    Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
+    level_by_normals(drawn_normals(cloud), up);
+    if (up.z() < 0) up = -up;
+    const bool near = up.z() >= std::cos(kMaxLevelTilt_deg * EIGEN_PI / 180);
+    return {near ? up : Eigen::Vector3d::UnitZ()};
+  }
   // A uniform disk is 4 standard deviations wide. Same cell for all axes, or areas say nothing.
   const double cell_m = 4 * deviations[2] / kCellsAcross;
 

@@ -1,6 +1,7 @@
 #include "pair_search.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "link_search.hpp"
@@ -14,6 +15,9 @@ namespace tcm_icp {
 // alone.
 // A scan overlaps few others much. Where there are more, all pairs are ranked at little cost first.
 constexpr std::size_t kFirstPartners = 10;
+
+// Each of the two may be off the vertical.
+bool tilts(const Eigen::Isometry3d& T) { return T.linear()(2, 2) < std::cos(2 * kMaxLevelTilt_deg * EIGEN_PI / 180); }
 
 enum class Tried : char { kNothing, kHeightMaps, kBoth };
 
@@ -76,7 +80,9 @@ struct PairSearch::Impl {
           all.push_back({target, source});
         }
       }
-      const auto scores = screen_by_height_maps(clouds, all, screening_options(), context.num_threads);
+      HeightCorrelationOptions screening = screening_options();
+      screening.vertical.levelled = options.level;
+      const auto scores = screen_by_height_maps(clouds, all, screening, context.num_threads);
       for (std::size_t k = 0; k < all.size(); ++k) {
         score[all[k].target * n + all[k].source] = score[all[k].source * n + all[k].target] = scores[k];
       }
@@ -116,7 +122,9 @@ struct PairSearch::Impl {
       }
       wanted.push_back({place[a], place[b]});
     }
-    return correlate_height_maps(clouds, wanted, {}, context.num_threads);
+    HeightCorrelationOptions correlation;
+    correlation.vertical.levelled = options.level;
+    return correlate_height_maps(clouds, wanted, correlation, context.num_threads);
   }
 
   void describe() {
@@ -137,6 +145,7 @@ struct PairSearch::Impl {
       for (std::size_t k = begin; k < end; ++k) {
         const auto [a, b] = pairs[k];
         out[k] = align_by_features({scans[a].pyramid, described[a]}, {scans[b].pyramid, described[b]}, features);
+        if (options.level) std::erase_if(out[k], [](const PoseCandidate& c) { return tilts(c.T_target_source); });
       }
     });
     return out;

@@ -52,6 +52,8 @@ struct PipelineOptions {
   Profile profile = Profile::kRobust;
   std::string reference;       ///< file of the reference scan; empty: chosen by the correspondence graph
   double graph_threshold = 0;  ///< >= 0; measure below which scans are connected; 0: from the data
+  /// Scans were levelled: z points up in each (kMaxLevelTilt_deg). Links that tilt one against another are not tried.
+  bool level = false;
   SamplingOptions sampling;
   OutlierOptions outliers;
   RobustTcmOptions tcm;
