@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "simulation/draw.hpp"
+#include "simulation/stations.hpp"
 #include "tcm_icp/core/error.hpp"
 #include "tcm_icp/core/rigid_transform.hpp"
 #include "tcm_icp/evaluation/overlap.hpp"
@@ -25,25 +26,6 @@ std::string file_name(int index) {
   return name;
 }
 
-/// A turn to any heading after a tilt of up to `max_tilt_deg` about a level axis.
-Isometry3d random_level_turn(double max_tilt_deg, Rng& rng) {
-  const double heading = uniform(rng, -std::numbers::pi, std::numbers::pi);
-  const double tilt = radians(max_tilt_deg) * uniform01(rng);
-  const double axis = uniform(rng, 0, 2 * std::numbers::pi);
-  return Isometry3d(Eigen::AngleAxisd(tilt, Vector3d(std::cos(axis), std::sin(axis), 0)) *
-                    Eigen::AngleAxisd(heading, Vector3d::UnitZ()));
-}
-
-/// Evenly along the path, off its middle by up to 1.2 m; a surveyor levels the tripod to within half a degree.
-Isometry3d station(const Scene& scene, const SceneSetOptions& options, int index, Rng& rng) {
-  const double share = (index + 0.5) / options.num_scans;
-  const PathPoint at = along_path(scene.path, share * path_length_m(scene.path));
-  const double offset = uniform(rng, -1.2, 1.2);
-  const Vector3d left(-std::sin(at.heading_rad), std::cos(at.heading_rad), 0);
-  return Eigen::Translation3d(at.position + offset * left + Vector3d(0, 0, options.scanner_height_m)) *
-         random_level_turn(0.5, rng);
-}
-
 Isometry3d random_frame(const SceneSetOptions& options, Rng& rng) {
   const Isometry3d turn = random_level_turn(options.max_tilt_deg, rng);
   const double shift = options.max_shift_m * std::sqrt(uniform01(rng));
@@ -60,23 +42,53 @@ Vector3d mean_of(const Points& points) {
 
 Scene make_scene(const SceneSetOptions& options, std::uint64_t seed) {
   Rng rng = make_stream(seed, "scene");
+  const double needed_m = options.num_scans * options.station_spacing_m;
   switch (options.scene) {
     case SceneKind::kTown:
       return make_town_scene(options.town, rng);
     case SceneKind::kBlock:
       // No shorter than leaves room for a building inside.
-      return make_block_scene({std::max(140.0, options.num_scans * options.station_spacing_m)}, rng);
+      return make_block_scene({std::max(140.0, needed_m)}, rng);
     case SceneKind::kStreet:
-      return make_street_scene({std::max(40.0, options.num_scans * options.station_spacing_m)}, rng);
+      return make_street_scene({std::max(40.0, needed_m)}, rng);
+    case SceneKind::kUrban:
+      return make_urban_scene({std::max(40.0, needed_m)}, rng);
+    case SceneKind::kCanopy:
+      return make_canopy_scene({std::max(40.0, needed_m)}, rng);
+    case SceneKind::kInterior:
+      // The way into three rooms and back is as long as about 16 m of corridor.
+      return make_interior_scene({std::max(15.0, needed_m - 16)}, rng);
+    case SceneKind::kPlaza:
+      return make_plaza_scene({}, rng);
   }
   throw InvalidOptions("simulate: unknown scene");
+}
+
+/// The options with the spacing that gives the overlap asked for, found on the scene as it would be without.
+SceneSetOptions with_spacing(const SceneSetOptions& options, const RunContext& context) {
+  SceneSetOptions out = options;
+  if (!options.overlap) return out;
+  const Scene scene = make_scene(options, context.seed);
+  out.station_spacing_m = std::min(100.0, spacing_for_overlap(scene, options, context.seed, context.num_threads));
+  return out;
+}
+
+/// A path that is made to measure may be a little shorter, where corners are cut.
+void require_room(const SceneSetOptions& options, const Scene& scene) {
+  constexpr double kCut = 0.9;
+  const double needed_m = options.num_scans * options.station_spacing_m, length_m = path_length_m(scene.path);
+  if (!options.overlap || length_m >= kCut * needed_m) return;
+  throw InvalidOptions("simulate: overlap = " + std::to_string(*options.overlap) + " needs stations " +
+                       std::to_string(options.station_spacing_m) + " m apart, and the path of " +
+                       scene_name(options.scene) + " is only " + std::to_string(length_m) +
+                       " m long; ask for fewer scans or more overlap");
 }
 
 /// Scan `index` and its truth. Each scan draws from its own stream: the others do not depend on it.
 void add_scan(SceneSet& set, const RayCaster& caster, int index, int num_threads) {
   const std::string file = file_name(index);
   Rng rng = make_stream(set.seed, "scan", file);
-  const Isometry3d T_world_scanner = station(set.scene, set.options, index, rng);
+  const Isometry3d T_world_scanner = make_station(set.scene, set.options, index, rng);
   const Isometry3d T_scan_scanner = random_frame(set.options, rng);
   LidarScan scan = simulate_scan(caster, T_world_scanner, set.options.scanner, rng, num_threads);
   if (scan.cloud.empty())
@@ -96,57 +108,33 @@ void add_scan(SceneSet& set, const RayCaster& caster, int index, int num_threads
 
 }  // namespace
 
-SceneKind scene_kind_from_name(const std::string& name) {
-  for (const SceneKind kind : {SceneKind::kTown, SceneKind::kBlock, SceneKind::kStreet})
-    if (name == scene_name(kind)) return kind;
-  throw InvalidOptions("scene '" + name + "' is not known; there are: town, block, street");
-}
-
-std::string scene_name(SceneKind kind) {
-  switch (kind) {
-    case SceneKind::kTown:
-      return "town";
-    case SceneKind::kBlock:
-      return "block";
-    case SceneKind::kStreet:
-      return "street";
-  }
-  throw InvalidOptions("simulate: unknown scene");
-}
-
-SceneSetOptions default_scene_set(SceneKind kind) {
-  SceneSetOptions options;
-  options.scene = kind;
-  if (kind == SceneKind::kTown) return options;
-  options.scanner.max_range_m = 40;
-  options.scanner.thinning_voxel_m = 0.2;
-  options.num_scans = kind == SceneKind::kBlock ? 20 : 60;
-  options.station_spacing_m = 14;
-  // Measured on 36 scans of a street, registered one after another: 0.22 m at the far end of 500 m. A loop closes.
-  options.drift_share = kind == SceneKind::kBlock ? 2.5e-4 : 5e-4;
-  return options;
-}
-
 void SceneSetOptions::validate() const {
   town.validate();
   scanner.validate();
   if (initial_guess) initial_guess->validate();
   require(num_scans >= 1 && num_scans <= 1000, "num_scans", num_scans, "1..1000");
   require(station_spacing_m >= 1 && station_spacing_m <= 100, "station_spacing_m", station_spacing_m, "1..100");
+  require(!overlap || (*overlap >= 0.05 && *overlap <= 0.95), "overlap", overlap.value_or(0), "0.05..0.95");
   require(scanner_height_m > 0 && std::isfinite(scanner_height_m), "scanner_height_m", scanner_height_m, "> 0");
   require(drift_share >= 0 && drift_share <= 0.01, "drift_share", drift_share, "0..0.01");
   require(max_tilt_deg >= 0 && max_tilt_deg <= 90, "max_tilt_deg", max_tilt_deg, "0..90");
   require(max_shift_m >= 0 && std::isfinite(max_shift_m), "max_shift_m", max_shift_m, ">= 0");
+  if (scene == SceneKind::kInterior && scanner.sensor == SensorKind::kAerial)
+    throw InvalidOptions("simulate: an aerial sensor sees nothing of an interior but its roof; choose another");
 }
 
 SceneSet simulate_scene_set(const SceneSetOptions& options, const RunContext& context) {
   options.validate();
   SceneSet set;
-  set.options = options;
+  set.options = with_spacing(options, context);
   set.seed = context.seed;
-  set.scene = make_scene(options, context.seed);
+  set.scene = make_scene(set.options, context.seed);
+  require_room(set.options, set.scene);
   set.truth.tolerance = options.tolerance;
   set.truth.tolerance.rmse_m += options.drift_share * path_length_m(set.scene.path);
+  // A scan bent by motion has no one pose: its ends lie half the way of a turn from where its middle says.
+  if (options.scanner.sensor != SensorKind::kAerial)
+    set.truth.tolerance.rmse_m += std::abs(options.scanner.speed_m_s) / options.scanner.turns_per_s / 2;
   const RayCaster caster(set.scene.mesh);
   for (int i = 0; i < options.num_scans; ++i) {
     context.report("simulate", static_cast<std::size_t>(i), static_cast<std::size_t>(options.num_scans));

@@ -45,17 +45,38 @@ Json rows(const Eigen::Ref<const Eigen::MatrixXd>& m) {
   return out;
 }
 
+/// What a plain terrestrial scanner does not have, where it is there.
+void add_effects(const ScannerOptions& s, Json& out) {
+  const ScannerOptions plain;
+  if (s.sensor != plain.sensor) out["sensor"] = sensor_name(s.sensor);
+  if (s.sensor == SensorKind::kSpinning) out["num_lines"] = s.num_lines;
+  if (s.sensor == SensorKind::kAerial) {
+    out["half_swath_deg"] = s.half_swath_deg;
+    out["strip_length_m"] = s.strip_length_m;
+    out["line_spacing_m"] = s.line_spacing_m;
+  }
+  if (s.max_incidence_deg != plain.max_incidence_deg) out["max_incidence_deg"] = s.max_incidence_deg;
+  if (s.dropout_share != plain.dropout_share) out["dropout_share"] = s.dropout_share;
+  if (s.beam_width_deg != plain.beam_width_deg) out["beam_width_deg"] = s.beam_width_deg;
+  if (s.speed_m_s != plain.speed_m_s) {
+    out["speed_m_s"] = s.speed_m_s;
+    out["turns_per_s"] = s.turns_per_s;
+  }
+}
+
 Json scanner_json(const ScannerOptions& s) {
-  return {{"step_deg", s.step_deg},
-          {"min_elevation_deg", s.min_elevation_deg},
-          {"max_elevation_deg", s.max_elevation_deg},
-          {"min_range_m", s.min_range_m},
-          {"max_range_m", s.max_range_m},
-          {"range_noise_m", s.range_noise_m},
-          {"angular_noise_deg", s.angular_noise_deg},
-          {"full_return_signal", s.full_return_signal},
-          {"thinning_voxel_m", s.thinning_voxel_m},
-          {"isolated_share", s.isolated_share}};
+  Json out = {{"step_deg", s.step_deg},
+              {"min_elevation_deg", s.min_elevation_deg},
+              {"max_elevation_deg", s.max_elevation_deg},
+              {"min_range_m", s.min_range_m},
+              {"max_range_m", s.max_range_m},
+              {"range_noise_m", s.range_noise_m},
+              {"angular_noise_deg", s.angular_noise_deg},
+              {"full_return_signal", s.full_return_signal},
+              {"thinning_voxel_m", s.thinning_voxel_m},
+              {"isolated_share", s.isolated_share}};
+  add_effects(s, out);
+  return out;
 }
 
 Json truth_json(const SceneSet& set) {
@@ -72,8 +93,10 @@ Json truth_json(const SceneSet& set) {
               {"licence", "CC0-1.0"},
               {"units", "m"},
               {"seed", set.seed}};
-  // The town's stations share out its street: their distance is no option.
-  if (set.options.scene != SceneKind::kTown) out["station_spacing_m"] = set.options.station_spacing_m;
+  // The stations of town and plaza share out their path: their distance is no option.
+  const bool is_shared = set.options.scene == SceneKind::kTown || set.options.scene == SceneKind::kPlaza;
+  if (!is_shared || set.options.overlap) out["station_spacing_m"] = set.options.station_spacing_m;
+  if (set.options.overlap) out["wanted_overlap"] = *set.options.overlap;
   out["scanner_options"] = scanner_json(set.options.scanner);
   out["scans"] = scans;
   out["tolerance"] = {{"rotation_deg", set.truth.tolerance.rotation_deg}, {"rmse_m", set.truth.tolerance.rmse_m}};

@@ -11,12 +11,13 @@ using Eigen::Isometry3d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-StreetBuilder::StreetBuilder(const Points& middle, Rng& rng)
+StreetBuilder::StreetBuilder(const Points& middle, Rng& rng, const StreetStyle& style)
     : rng_(rng),
       ground_(rng),
       middle_(middle),
       length_m_(path_length_m(middle)),
       is_closed_(middle.front() == middle.back()),
+      style_(style),
       half_road_m_(uniform(rng, 4.2, 5)),
       pavement_m_(uniform(rng, 2.2, 3.2)) {}
 
@@ -25,6 +26,7 @@ Scene StreetBuilder::build() {
   lay_kerbs();
   for (const double side : {-1.0, 1.0}) line_side(side);
   build_second_row();
+  if (style_.has_wires) string_wires(uniform01(rng_) < 0.5 ? -1 : 1);
   for (const double side : {-1.0, 1.0}) furnish_side(side);
   return std::move(scene_);
 }

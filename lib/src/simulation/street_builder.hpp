@@ -5,15 +5,25 @@
 
 #include "simulation/ground.hpp"
 #include "simulation/site_plan.hpp"
+#include "simulation/town_objects.hpp"
 #include "tcm_icp/core/random.hpp"
 #include "tcm_icp/simulation/scene.hpp"
 
 namespace tcm_icp {
 
+/// What tells one quarter of a town from another.
+struct StreetStyle {
+  double closed_front_share = 0.55;  ///< 0..1, of the stretches between side streets
+  double detached_share = 0.27;      ///< likewise; the rest is open ground
+  double avenue_share = 0.45;        ///< of the stretches that are lined with trees
+  bool has_wires = false;            ///< on poles along one side
+  void (*add_tree)(TriangleMesh&, const Eigen::Isometry3d&, Rng&) = tcm_icp::add_tree;
+};
+
 class StreetBuilder {
  public:
   /// @param middle  the street's middle line on the map; closed where the last point is the first
-  StreetBuilder(const Points& middle, Rng& rng);
+  StreetBuilder(const Points& middle, Rng& rng, const StreetStyle& style = {});
   Scene build();
 
  private:
@@ -33,6 +43,7 @@ class StreetBuilder {
   void build_second_row();
 
   // street_verge.cpp: what stands in the street
+  void string_wires(double side);
   void furnish_side(double side);
   void park_cars(double side, double begin_m, double end_m, double occupancy);
   void plant_avenue(double side, double begin_m, double end_m, double spacing_m);
@@ -52,6 +63,7 @@ class StreetBuilder {
   const Points middle_;
   const double length_m_;
   const bool is_closed_;
+  const StreetStyle style_;
   const double half_road_m_;
   const double pavement_m_;
   SitePlan road_;  ///< with its pavements: no place for lots

@@ -21,9 +21,9 @@ void StreetBuilder::line_side(double side) {
   for (double begin = 0; begin < length_m_;) {
     const double end = std::min(begin + uniform(rng_, 25, 70), length_m_);
     const double kind = uniform01(rng_);
-    build_stretch(kind < 0.55   ? Character::kClosedFront
-                  : kind < 0.82 ? Character::kDetached
-                                : Character::kOpen,
+    build_stretch(kind < style_.closed_front_share                           ? Character::kClosedFront
+                  : kind < style_.closed_front_share + style_.detached_share ? Character::kDetached
+                                                                             : Character::kOpen,
                   side, begin, end);
     begin = end;
     if (uniform01(rng_) < 0.5) begin += uniform(rng_, 5, 10);  // a side street, or a yard
@@ -106,7 +106,7 @@ void StreetBuilder::plant_open_ground(double side, double begin_m, double end_m)
     const double distance = half_road_m_ + pavement_m_ + uniform(rng_, 1, 16);
     const Footprint spot = site(side, s, {half, half}, distance);
     if (!claim_lot(spot, 0.3)) continue;
-    (is_tree ? add_tree : add_bush)(scene_.mesh, standing(spot), rng_);
+    (is_tree ? style_.add_tree : add_bush)(scene_.mesh, standing(spot), rng_);
   }
 }
 

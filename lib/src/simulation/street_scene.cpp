@@ -1,10 +1,11 @@
-// The middle lines of simulated streets: a winding one, and one around a block.
+// The middle lines of simulated streets: a winding one, one around a corner, and one around a block.
 
 #include <cmath>
 #include <string>
 
 #include "simulation/draw.hpp"
 #include "simulation/street_builder.hpp"
+#include "simulation/tree.hpp"
 #include "tcm_icp/core/error.hpp"
 #include "tcm_icp/simulation/scene.hpp"
 
@@ -36,6 +37,8 @@ Points with_cut_corners(const Points& path) {
 
 void StreetOptions::validate() const { require_length("street: length_m", length_m, 40); }
 
+void UrbanOptions::validate() const { require_length("urban: length_m", length_m, 40); }
+
 void BlockOptions::validate() const { require_length("block: perimeter_m", perimeter_m, 120); }
 
 Scene make_street_scene(const StreetOptions& options, Rng& rng) {
@@ -50,6 +53,25 @@ Scene make_street_scene(const StreetOptions& options, Rng& rng) {
     left -= step;
   }
   return StreetBuilder(with_cut_corners(with_cut_corners(path)), rng).build();
+}
+
+Scene make_urban_scene(const UrbanOptions& options, Rng& rng) {
+  options.validate();
+  // Around a corner: the two halves of the way see little of each other.
+  const double turn = (uniform01(rng) < 0.5 ? -1 : 1) * radians(uniform(rng, 60, 90));
+  Points path{Vector3d::Zero()};
+  constexpr int kLegs = 4;
+  for (int leg = 0; leg < kLegs; ++leg) {
+    const double heading = (leg < kLegs / 2 ? 0 : turn) + radians(uniform(rng, -12, 12));
+    path.push_back(path.back() + options.length_m / kLegs * Vector3d(std::cos(heading), std::sin(heading), 0));
+  }
+  StreetStyle leafy;
+  leafy.closed_front_share = 0.5;
+  leafy.detached_share = 0.35;
+  leafy.avenue_share = 0.8;
+  leafy.has_wires = true;
+  leafy.add_tree = add_broadleaf_tree;
+  return StreetBuilder(with_cut_corners(path), rng, leafy).build();
 }
 
 Scene make_block_scene(const BlockOptions& options, Rng& rng) {

@@ -1,9 +1,11 @@
-// What stands in a street: parked cars, trees along the kerb, lamps, signs and what else is in the way of a pram.
+// What stands in a street: wires, parked cars, trees along the kerb, lamps, signs and what else is in the way of a
+// pram.
 
 #include <algorithm>
 #include <numbers>
 
 #include "simulation/draw.hpp"
+#include "simulation/overhead_line.hpp"
 #include "simulation/street_builder.hpp"
 #include "simulation/street_furniture.hpp"
 #include "simulation/town_objects.hpp"
@@ -14,13 +16,26 @@ using Eigen::Isometry3d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
+void StreetBuilder::string_wires(double side) {
+  const double height = uniform(rng_, 7, 9);
+  Points last;
+  for (double s = uniform(rng_, 0, 10); s < length_m_; s += uniform(rng_, 24, 34)) {
+    const Footprint spot = site(side, s, {0.2, 0.2}, half_road_m_ + 0.4);
+    if (!claim(spot, 0.1)) continue;
+    const Points carriers = add_utility_pole(scene_.mesh, standing(spot), height);
+    // Whose front faces the street has its arm across it, since x runs along: the order of the places is the same.
+    if (!last.empty()) add_span(scene_.mesh, last, carriers);
+    last = carriers;
+  }
+}
+
 void StreetBuilder::furnish_side(double side) {
   for (double begin = 0; begin < length_m_;) {
     const double end = std::min(begin + uniform(rng_, 25, 60), length_m_);
     const double occupancy = uniform(rng_, 0.05, 0.75);
     const double spacing = uniform(rng_, 6, 14);
     put_small_objects(side, begin, end);
-    if (uniform01(rng_) < 0.45) plant_avenue(side, begin, end, spacing);
+    if (uniform01(rng_) < style_.avenue_share) plant_avenue(side, begin, end, spacing);
     park_cars(side, begin, end, occupancy);
     begin = end;
   }
@@ -46,7 +61,7 @@ void StreetBuilder::plant_avenue(double side, double begin_m, double end_m, doub
     const double at_m = s + uniform(rng_, -1, 1);
     if (uniform01(rng_) < 0.15) continue;  // one that was not replaced
     const Footprint spot = site(side, at_m, {0.4, 0.4}, half_road_m_ + 0.2);
-    if (claim(spot, 0.2)) add_tree(scene_.mesh, standing(spot), rng_);
+    if (claim(spot, 0.2)) style_.add_tree(scene_.mesh, standing(spot), rng_);
   }
 }
 

@@ -10,6 +10,7 @@ namespace tcm_icp {
 struct Scene {
   TriangleMesh mesh;  ///< z up [m]
   Points path;        ///< polyline on the ground [m], >= 2 points, clear of objects: stations are chosen along it
+  double free_half_width_m = 1.2;  ///< to either side of the path there is room for a station
 };
 
 struct TownOptions {
@@ -37,6 +38,45 @@ struct StreetOptions {
 /// A winding street between houses, terraces and gardens, no two of which are alike, with a second row behind them.
 /// @throws InvalidOptions
 Scene make_street_scene(const StreetOptions& options, Rng& rng);
+
+struct UrbanOptions {
+  double length_m = 80;   ///< [m] 40..20000
+  void validate() const;  ///< throws InvalidOptions
+};
+
+/// A street around a corner: houses, rows of trees with branches and leaves, wires on poles.
+/// @throws InvalidOptions
+Scene make_urban_scene(const UrbanOptions& options, Rng& rng);
+
+struct CanopyOptions {
+  double length_m = 80;   ///< [m] 40..2000, along the shore
+  void validate() const;  ///< throws InvalidOptions
+};
+
+/// A trail along the shore of a lake: water that reflects next to nothing, open forest of pines and broadleaf trees,
+/// and what a park has: tables, benches, signs, boulders, boats, a jetty, parked cars, a power line.
+/// @throws InvalidOptions
+Scene make_canopy_scene(const CanopyOptions& options, Rng& rng);
+
+struct InteriorOptions {
+  double length_m = 30;   ///< [m] 15..500, of the corridor
+  void validate() const;  ///< throws InvalidOptions
+};
+
+/// One storey: a corridor with furnished rooms of unequal width on either side and open doors. The path leads from a
+/// room through the corridor and its rooms.
+/// @throws InvalidOptions
+Scene make_interior_scene(const InteriorOptions& options, Rng& rng);
+
+struct PlazaOptions {
+  double half_size_m = 30;  ///< [m] 22..200, of the square
+  void validate() const;    ///< throws InvalidOptions
+};
+
+/// A paved square before a building that is its own mirror image, with town houses on the other sides, a fountain,
+/// trees, lamps and benches.
+/// @throws InvalidOptions
+Scene make_plaza_scene(const PlazaOptions& options, Rng& rng);
 
 struct BlockOptions {
   double perimeter_m = 240;  ///< [m] 120..20000, of the street's middle line
