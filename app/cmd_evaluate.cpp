@@ -1,16 +1,14 @@
 // tcm-icp evaluate: errors of poses against ground truth.
 
 #include <boost/program_options.hpp>
-#include <cstdio>
-#include <fstream>
 #include <iostream>
 #include <map>
-#include <nlohmann/json.hpp>
+#include <thread>
 
 #include "command.hpp"
+#include "evaluation_report.hpp"
 #include "option_binding.hpp"
 #include "tcm_icp/core/error.hpp"
-#include "tcm_icp/evaluation/metrics.hpp"
 #include "tcm_icp/io/pose_io.hpp"
 #include "tcm_icp/io/scan_reader.hpp"
 
@@ -23,6 +21,11 @@ namespace po = boost::program_options;
 struct Request {
   std::string scans, poses, truth, json;
   ScoreOptions options;
+  std::size_t rms_points = 50000;
+  std::size_t cloud_points = 200000;
+  std::uint64_t seed = 42;
+  int threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  double max_rotation_deg = 0, max_rmse = 0;
 };
 
 po::options_description describe(Request& r) {
@@ -32,29 +35,64 @@ po::options_description describe(Request& r) {
       ("truth", po::value(&r.truth)->required(), "truth.json of the scene")                                //
       ("json", po::value(&r.json), "write the figures here as well")                                       //
       ("min-overlap", bind_option(&r.options.min_overlap),
-       "true overlap (0..1) from which a pair counts for pair recall")  //
+       "true overlap (0..1) from which a pair counts for registration recall")  //
+      ("max-rotation", po::value(&r.max_rotation_deg),
+       "[deg] a right pose is within; default: the truth's tolerance")  //
+      ("max-rmse", po::value(&r.max_rmse),
+       "and within this, in the unit of the scans; default: the truth's tolerance")  //
+      ("rms-points", bind_option(&r.rms_points),
+       "points, drawn over all registered scans, the total RMS is taken over")  //
+      ("cloud-points", bind_option(&r.cloud_points),
+       "points, shared out among all scans, that stand for the clouds whose distance is measured")  //
+      ("seed", bind_option(&r.seed), "of both draws")                                               //
+      ("threads", bind_option(&r.threads), "changes the time, never the result")                    //
       ("help,h", "this text");
   return what;
 }
 
-/// Every k-th finite point, so that at most about 50,000 are left: their error is that of all of them to its printed
-/// digits. Two passes, since k depends on how many there are.
-Points thinned_points(const fs::path& path) {
-  constexpr std::uint64_t kAtMost = 50000;
+void validate(const Request& r, const po::variables_map& given) {
+  r.options.validate();
+  if (r.rms_points < 1 || r.cloud_points < 1) throw InvalidOptions("--rms-points and --cloud-points need 1 or more");
+  if (r.threads < 1) throw InvalidOptions("--threads = " + std::to_string(r.threads) + "; needs >= 1");
+  for (const auto& [name, value] : {std::pair("max-rotation", r.max_rotation_deg), {"max-rmse", r.max_rmse}})
+    if (given.count(name) > 0 && !(value > 0))
+      throw InvalidOptions("--" + std::string(name) + " = " + std::to_string(value) + "; needs > 0");
+}
+
+std::uint64_t count_points(const fs::path& path) {
   PointBlock block;
   ScanReader counter(path, ReadAttributes::kNo);
   while (counter.read(block)) continue;
-  const std::uint64_t step = std::max<std::uint64_t>(1, counter.num_points() / kAtMost);
-  Points points;
+  if (counter.num_points() == 0) throw InputError(path, "", "has no finite point", "evaluate scans that have points");
+  return counter.num_points();
+}
+
+struct Samples {
+  Points thinned;  ///< every k-th finite point, so that at most about 50,000 are left: their error is that of all of
+                   ///< them to its printed digits
+  Points drawn;    ///< as many as were asked for, drawn evenly
+};
+
+Samples sample(const fs::path& path, std::uint64_t num_points, std::size_t num_drawn, Rng& rng) {
+  constexpr std::uint64_t kAtMost = 50000;
+  const std::uint64_t step = std::max<std::uint64_t>(1, num_points / kAtMost);
+  const auto chosen = sample_indices(rng, num_points, num_drawn);
+  Samples out;
   std::uint64_t index = 0;
+  auto next = chosen.begin();
+  PointBlock block;
   ScanReader reader(path, ReadAttributes::kNo);
   while (reader.read(block)) {
     for (const auto& p : block.points) {
-      if (index++ % step == 0) points.push_back(p);
+      if (index % step == 0) out.thinned.push_back(p);
+      if (next != chosen.end() && *next == index) {
+        out.drawn.push_back(p);
+        ++next;
+      }
+      ++index;
     }
   }
-  if (points.empty()) throw InputError(path, "", "has no finite point", "evaluate scans that have points");
-  return points;
+  return out;
 }
 
 struct Estimates {
@@ -83,60 +121,29 @@ Estimates match(const Truth& truth, const PoseFile& file, const fs::path& path) 
   return out;
 }
 
-void print_table(const Truth& truth, const SceneScore& score, std::ostream& out) {
-  char line[256];
-  std::size_t width = 4;
-  for (const auto& scan : score.scans) width = std::max(width, scan.file.size());
-  const int w = static_cast<int>(std::min<std::size_t>(width, 100));
-  std::snprintf(line, sizeof line, "%-*s  %-7s  %14s  %10s\n", w, "scan", "verdict", "rotation [deg]", "rmse [m]");
-  out << line;
-  for (std::size_t i = 0; i < score.scans.size(); ++i) {
-    const ScanScore& s = score.scans[i];
-    std::snprintf(line, sizeof line, "%-*s  %-7s", w, s.file.c_str(), to_string(s.verdict).c_str());
-    out << line;
-    if (s.error) {
-      std::snprintf(line, sizeof line, "  %14.4f  %10.4f", s.error->rotation_deg, s.error->rmse_m);
-      out << line;
-    }
-    out << (i == score.reference ? "  reference\n" : "\n");
+Evaluation evaluate(const Request& r, const po::variables_map& given) {
+  Evaluation out;
+  out.truth = read_truth(r.truth);
+  if (given.count("max-rotation") > 0) out.truth.tolerance.rotation_deg = r.max_rotation_deg;
+  if (given.count("max-rmse") > 0) out.truth.tolerance.rmse_m = r.max_rmse;
+  const Estimates estimates = match(out.truth, read_pose_file(r.poses), r.poses);
+  std::vector<std::uint64_t> counts;
+  for (const auto& scan : out.truth.scans) counts.push_back(count_points(fs::path(r.scans) / scan.file));
+  const auto shares = share_out(std::max(r.cloud_points, r.rms_points), counts);
+  std::vector<Points> thinned, drawn;
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    const std::string& file = out.truth.scans[i].file;
+    Rng rng = make_stream(r.seed, "evaluate", file);
+    Samples samples = sample(fs::path(r.scans) / file, counts[i], shares[i], rng);
+    thinned.push_back(std::move(samples.thinned));
+    drawn.push_back(std::move(samples.drawn));
   }
-  out << score.count(PoseVerdict::kOk) << "/" << score.scans.size() << " scans ok, "
-      << score.count(PoseVerdict::kFlagged) << " flagged, " << score.count(PoseVerdict::kWrong) << " WRONG; pairs "
-      << score.num_pairs_ok << "/" << score.num_pairs << "; tolerance " << truth.tolerance.rotation_deg << " deg, "
-      << truth.tolerance.rmse_m << " m\n";
-  if (!score.median) return;
-  std::snprintf(line, sizeof line, "median rotation %.4f deg, median rmse %.4f m, largest rmse %.4f m\n",
-                score.median->rotation_deg, score.median->rmse_m, *score.max_rmse_m);
-  out << line;
-}
-
-nlohmann::ordered_json to_json(const Truth& truth, const SceneScore& score) {
-  using Json = nlohmann::ordered_json;
-  Json scans = Json::array();
-  for (const auto& s : score.scans) {
-    Json entry{{"file", s.file}, {"verdict", to_string(s.verdict)}};
-    entry["rotation_deg"] = s.error ? Json(s.error->rotation_deg) : Json();
-    entry["rmse"] = s.error ? Json(s.error->rmse_m) : Json();
-    scans.push_back(entry);
-  }
-  return {{"scans", scans},
-          {"reference", score.scans[score.reference].file},
-          {"ok", score.count(PoseVerdict::kOk)},
-          {"flagged", score.count(PoseVerdict::kFlagged)},
-          {"wrong", score.count(PoseVerdict::kWrong)},
-          {"pairs", score.num_pairs},
-          {"pairs_ok", score.num_pairs_ok},
-          {"tolerance", {{"rotation_deg", truth.tolerance.rotation_deg}, {"rmse_m", truth.tolerance.rmse_m}}},
-          {"median_rotation_deg", score.median ? Json(score.median->rotation_deg) : Json()},
-          {"median_rmse", score.median ? Json(score.median->rmse_m) : Json()},
-          {"max_rmse", score.max_rmse_m ? Json(*score.max_rmse_m) : Json()}};
-}
-
-void write_json(const nlohmann::ordered_json& json, const fs::path& path) {
-  std::ofstream out(path, std::ios::binary);
-  out << json.dump(1) << '\n';
-  out.close();
-  if (!out) throw OutputError(path, "cannot be written", "check the folder, its permissions and free space");
+  out.score = score_poses(out.truth, estimates.poses, estimates.reference, thinned, r.options);
+  Rng rng = make_stream(r.seed, "evaluate rms");
+  out.clouds = compare_clouds(out.truth, estimates.poses, estimates.reference, drawn, r.rms_points, rng, r.threads);
+  out.min_overlap = r.options.min_overlap;
+  out.seed = r.seed;
+  return out;
 }
 
 }  // namespace
@@ -149,20 +156,18 @@ int cmd_evaluate(const Arguments& arguments) {
   if (given.count("help") > 0) {
     std::cout
         << "Usage: tcm-icp evaluate --scans DIR --poses POSES.json --truth TRUTH.json [--json FILE]\n"
-           "How far each scan is from where it belongs, relative to the reference scan of the poses.\n"
+           "How far each scan is from where it belongs, relative to the reference scan of the poses; each pair of "
+           "scans\n"
+           "that truly overlaps; and the registered cloud against that of the truth.\n"
            "ok: within the truth's tolerance; flagged: left unregistered; WRONG: said to be registered, and is not.\n\n"
         << description;
     return kSuccess;
   }
   po::notify(given);
-  request.options.validate();
-  const Truth truth = read_truth(request.truth);
-  const Estimates estimates = match(truth, read_pose_file(request.poses), request.poses);
-  std::vector<Points> points;
-  for (const auto& scan : truth.scans) points.push_back(thinned_points(fs::path(request.scans) / scan.file));
-  const SceneScore score = score_poses(truth, estimates.poses, estimates.reference, points, request.options);
-  print_table(truth, score, std::cout);
-  if (!request.json.empty()) write_json(to_json(truth, score), request.json);
+  validate(request, given);
+  const Evaluation evaluation = evaluate(request, given);
+  print_evaluation(evaluation, std::cout);
+  if (!request.json.empty()) write_evaluation(evaluation, request.json);
   return kSuccess;
 }
 

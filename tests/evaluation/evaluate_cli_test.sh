@@ -41,18 +41,35 @@ poses registered "$(pose_of 3.0625)" >"$folder/good.json"
 poses registered "$(pose_of 3.25)" >"$folder/wrong.json"
 poses unregistered null >"$folder/flagged.json"
 
-expect 0 out '1.xyz  ok  *0.0000  *0.0625' evaluate --poses "$folder/good.json"
+expect 0 out '1.xyz  ok  *0.0000  *0.0625  *0.0625' evaluate --poses "$folder/good.json"
 expect 0 out '2/2 scans ok, 0 flagged, 0 WRONG; pairs 1/1' evaluate --poses "$folder/good.json"
-expect 0 out '1.xyz  WRONG  *0.0000  *0.2500' evaluate --poses "$folder/wrong.json"
+expect 0 out '1.xyz  WRONG  *0.0000  *0.2500  *0.2500' evaluate --poses "$folder/wrong.json"
 expect 0 out '1/2 scans ok, 1 flagged, 0 WRONG; pairs 0/1' evaluate --poses "$folder/flagged.json"
 expect 0 out 'WRONG' evaluate --poses "$folder/wrong.json" --json "$folder/score.json"
 expect 0 out '"max_rmse": 0.25' cat "$folder/score.json"
+
+expect 0 out '0.xyz 1.xyz  ok  *0.0000  *0.0625' evaluate --poses "$folder/good.json"
+expect 0 out 'registration recall 1.000: pairs of true overlap 0.1 or more, within 1 deg and 0.1 m' evaluate --poses "$folder/good.json"
+expect 0 out 'registration recall 0.000' evaluate --poses "$folder/good.json" --max-rmse 0.05
+expect 0 out 'registration recall 1.000' evaluate --poses "$folder/wrong.json" --max-rmse 0.3
+# One of the two scans, four points each, is off by 1/4 along x, which is nearest for each of its points.
+expect 0 out 'RMS of 8 points 0.1768 m' evaluate --poses "$folder/wrong.json"
+expect 0 out 'registered to truth: mean 0.1250 m, standard deviation 0.1250 m (8 points to 8)' \
+  evaluate --poses "$folder/wrong.json"
+expect 0 out 'registered to truth 0.2500 m, truth to registered 0.2500 m, symmetric 0.2500 m' \
+  evaluate --poses "$folder/wrong.json"
+expect 0 out 'registered to truth 0.0000 m, truth to registered 3.0000 m' evaluate --poses "$folder/flagged.json"
+expect 0 out 'RMS of 2 points' evaluate --poses "$folder/wrong.json" --rms-points 2 --threads 2
+expect 0 out '"registration_recall": 0.0' cat "$folder/score.json"
+expect 0 out '"standard_deviation": 0.125' cat "$folder/score.json"
 
 expect 2 err 'missing.json' evaluate --poses "$folder/missing.json"
 expect 2 err 'truth.json' evaluate --poses "$folder/truth.json"
 expect 4 err 'score.json' evaluate --poses "$folder/good.json" --json "$folder/missing/score.json"
 expect 1 err 'poses' evaluate
 expect 1 err 'min_overlap' evaluate --poses "$folder/good.json" --min-overlap 2
+expect 1 err 'max-rmse' evaluate --poses "$folder/good.json" --max-rmse 0
+expect 1 err 'rms-points' evaluate --poses "$folder/good.json" --rms-points 0
 rm "$folder/1.xyz"
 expect 2 err '1.xyz' evaluate --poses "$folder/good.json"
 

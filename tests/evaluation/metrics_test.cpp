@@ -60,6 +60,16 @@ TEST(PoseErrorTest, OfAShiftIsItsLength) {
                                      some_pose(2) * Translation3d(0.3, 0, 0.4), cube({100, 0, 0}));
   EXPECT_NEAR(error.rotation_deg, 0, 1e-9);
   EXPECT_NEAR(error.rmse_m, 0.5, 1e-9);
+  EXPECT_NEAR(error.translation_m, 0.5, 1e-9);
+}
+
+TEST(PoseErrorTest, TranslationIsThatOfTheFilesOrigin) {
+  // A turn about a place 10 m from the origin moves the origin by its chord, 10 m at 60 degrees.
+  const Isometry3d about =
+      Translation3d(10, 0, 0) * AngleAxisd(60 * kDegree, Vector3d::UnitZ()) * Translation3d(-10, 0, 0);
+  const PoseError error = pose_error(some_pose(1), some_pose(2), some_pose(1), some_pose(2) * about, cube({10, 0, 0}));
+  EXPECT_NEAR(error.translation_m, 10, 1e-9);
+  EXPECT_NEAR(error.rmse_m, std::sqrt(2.0), 1e-9);
 }
 
 TEST(PoseErrorTest, OfATurnAboutZMovesEachPointByItsChord) {
@@ -127,6 +137,26 @@ TEST(ScorePoses, CountsPairsThatOverlapInOneDirectionAtLeast) {
   EXPECT_EQ(score_poses(truth, estimates, 0, points, {}).num_pairs_ok, 1u);
   estimates[1] = std::nullopt;
   EXPECT_EQ(score_poses(truth, estimates, 0, points, {}).num_pairs_ok, 0u);
+}
+
+TEST(ScorePoses, TellsEachPairAndTheirRecall) {
+  Truth truth = truth_of(3);
+  truth.overlap = Eigen::MatrixXd::Constant(3, 3, 0.4);
+  truth.overlap(1, 0) = 0.6;
+  auto estimates = exact_estimates(truth);
+  estimates[2] = *estimates[2] * Translation3d(1, 0, 0);
+  const SceneScore score = score_poses(truth, estimates, 2, std::vector<Points>(3, cube({0, 0, 0})), {});
+  ASSERT_EQ(score.pairs.size(), 3u);
+  EXPECT_TRUE(score.pairs[0].is_ok);  // 0 and 1 agree, whatever the reference
+  EXPECT_EQ(score.pairs[0].overlap, 0.6);
+  EXPECT_FALSE(score.pairs[1].is_ok);
+  EXPECT_NEAR(score.pairs[1].error->rmse_m, 1, 1e-9);
+  EXPECT_NEAR(score.recall(), 1.0 / 3, 1e-12);
+  estimates[0] = std::nullopt;
+  EXPECT_FALSE(score_poses(truth, estimates, 2, std::vector<Points>(3, cube({0, 0, 0})), {}).pairs[0].error);
+  truth.scans.resize(1);
+  estimates = exact_estimates(truth);
+  EXPECT_TRUE(std::isnan(score_poses(truth, estimates, 0, {cube({0, 0, 0})}, {}).recall()));
 }
 
 TEST(ScorePoses, AScanOfAnotherGroupIsOkOnlyWhenLeftOut) {

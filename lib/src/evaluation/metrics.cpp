@@ -1,6 +1,7 @@
 #include "tcm_icp/evaluation/metrics.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <numbers>
 
 #include "tcm_icp/core/error.hpp"
@@ -26,19 +27,29 @@ ScanScore score_scan(const Truth& truth, const Estimates& estimates, std::size_t
   return score;
 }
 
+double true_overlap(const Truth& truth, std::size_t i, std::size_t j) {
+  if (truth.overlap.size() == 0) return std::numeric_limits<double>::quiet_NaN();
+  const auto a = static_cast<Eigen::Index>(i), b = static_cast<Eigen::Index>(j);
+  return std::max(truth.overlap(a, b), truth.overlap(b, a));
+}
+
 void count_pairs(const Truth& truth, const Estimates& estimates, const std::vector<Points>& points,
                  const ScoreOptions& options, SceneScore& score) {
   for (std::size_t i = 0; i < truth.scans.size(); ++i) {
     for (std::size_t j = i + 1; j < truth.scans.size(); ++j) {
       if (truth.scans[i].group != truth.scans[score.reference].group) continue;
       if (!truth.pair_counts(i, j, options.min_overlap)) continue;
-      ++score.num_pairs;
-      if (!estimates[i] || !estimates[j]) continue;
-      const PoseError error =
-          pose_error(truth.scans[i].T_world_scan, truth.scans[j].T_world_scan, *estimates[i], *estimates[j], points[j]);
-      score.num_pairs_ok += error.within(truth.tolerance) ? 1 : 0;
+      PairScore pair{i, j, true_overlap(truth, i, j), std::nullopt, false};
+      if (estimates[i] && estimates[j]) {
+        pair.error = pose_error(truth.scans[i].T_world_scan, truth.scans[j].T_world_scan, *estimates[i], *estimates[j],
+                                points[j]);
+        pair.is_ok = pair.error->within(truth.tolerance);
+      }
+      score.pairs.push_back(pair);
+      score.num_pairs_ok += pair.is_ok ? 1 : 0;
     }
   }
+  score.num_pairs = score.pairs.size();
 }
 
 /// Mean of the two middle values where their number is even.
@@ -49,14 +60,15 @@ double median(std::vector<double> values) {
 }
 
 void summarise(SceneScore& score) {
-  std::vector<double> rotations_deg, rmses_m;
+  std::vector<double> rotations_deg, rmses_m, translations_m;
   for (std::size_t i = 0; i < score.scans.size(); ++i) {
     if (i == score.reference || !score.scans[i].error) continue;
     rotations_deg.push_back(score.scans[i].error->rotation_deg);
     rmses_m.push_back(score.scans[i].error->rmse_m);
+    translations_m.push_back(score.scans[i].error->translation_m);
   }
   if (rmses_m.empty()) return;
-  score.median = PoseError{median(rotations_deg), median(rmses_m)};
+  score.median = PoseError{median(rotations_deg), median(rmses_m), median(translations_m)};
   score.max_rmse_m = *std::max_element(rmses_m.begin(), rmses_m.end());
 }
 
@@ -69,7 +81,7 @@ PoseError pose_error(const Isometry3d& T_true_ref, const Isometry3d& T_true_i, c
     return a.inverse(Eigen::Affine) * b;
   };
   const Isometry3d E = relative(relative(T_true_ref, T_true_i), relative(T_est_ref, T_est_i));
-  return {rotation_angle_rad(E.linear()) * 180 / std::numbers::pi, rms_displacement(E, points)};
+  return {rotation_angle_rad(E.linear()) * 180 / std::numbers::pi, rms_displacement(E, points), E.translation().norm()};
 }
 
 std::string to_string(PoseVerdict verdict) {
@@ -88,6 +100,8 @@ std::size_t SceneScore::count(PoseVerdict verdict) const {
   return static_cast<std::size_t>(
       std::count_if(scans.begin(), scans.end(), [&](const ScanScore& s) { return s.verdict == verdict; }));
 }
+
+double SceneScore::recall() const { return static_cast<double>(num_pairs_ok) / static_cast<double>(num_pairs); }
 
 void ScoreOptions::validate() const {
   if (!(min_overlap >= 0 && min_overlap <= 1)) {

@@ -13,7 +13,9 @@ namespace tcm_icp {
 
 struct PoseError {
   double rotation_deg = 0;
-  double rmse_m = 0;  ///< [m] root mean square of how far the scan's points are from where they belong
+  double rmse_m = 0;         ///< [m] root mean square of how far the scan's points are from where they belong
+  double translation_m = 0;  ///< [m] how far the origin of the scan's file is: where that lies away from the points,
+                             ///< the rotation's lever arm is in it
 
   bool within(const Tolerance& tolerance) const {
     return rotation_deg <= tolerance.rotation_deg && rmse_m <= tolerance.rmse_m;
@@ -39,15 +41,28 @@ struct ScanScore {
   PoseVerdict verdict = PoseVerdict::kWrong;
 };
 
+/// Two scans against one another, whatever the reference is.
+struct PairScore {
+  std::size_t a = 0, b = 0;        ///< indices, a < b
+  double overlap = 0;              ///< true one, the larger of its two directions; NaN where the truth does not say
+  std::optional<PoseError> error;  ///< of b seen from a; none where one of them has no pose
+  bool is_ok = false;
+};
+
 struct SceneScore {
   std::vector<ScanScore> scans;     ///< in the order of the truth
   std::size_t reference = 0;        ///< index of the reference scan
-  std::size_t num_pairs = 0;        ///< pairs of the reference's group that truly overlap by min_overlap or more
+  std::vector<PairScore> pairs;     ///< those of the reference's group that truly overlap by min_overlap or more
+  std::size_t num_pairs = 0;        ///< pairs.size()
   std::size_t num_pairs_ok = 0;     ///< of them, those whose relative pose is within tolerance
   std::optional<PoseError> median;  ///< over the scans with an error but the reference; none where there are none
   std::optional<double> max_rmse_m;
 
   std::size_t count(PoseVerdict verdict) const;
+
+  /// Registration recall: share of the pairs whose relative pose is within the truth's tolerance; NaN where there are
+  /// no pairs.
+  double recall() const;
 };
 
 struct ScoreOptions {
