@@ -21,6 +21,7 @@ using Arguments = std::vector<std::string>;
 
 int cmd_register(const Arguments& arguments);
 int cmd_evaluate(const Arguments& arguments);
+int cmd_degrade(const Arguments& arguments);
 int cmd_inspect(const Arguments& arguments);
 int cmd_simulate(const Arguments& arguments);
 

@@ -25,6 +25,7 @@ struct Command {
 constexpr std::array kCommands{
     Command{"register", cmd_register, "put scans into one frame: poses, merged cloud and report"},
     Command{"evaluate", cmd_evaluate, "errors of poses against ground truth"},
+    Command{"degrade", cmd_degrade, "copies of scans with noise, occlusion, sparsity and other defects"},
     Command{"inspect", cmd_inspect, "counts, extents, spacing, TCM and correspondence graph of scans"},
     Command{"simulate", cmd_simulate, "LiDAR scans of a made-up scene, with exact truth"},
 };

@@ -1,0 +1,210 @@
+// tcm-icp degrade: scans with noise, occlusion, sparsity, isolated points and blurred features, as in the paper's
+// experiments.
+
+#include <boost/program_options.hpp>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <iostream>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <thread>
+
+#include "command.hpp"
+#include "console.hpp"
+#include "option_binding.hpp"
+#include "run_setup.hpp"
+#include "tcm_icp/core/error.hpp"
+#include "tcm_icp/evaluation/degradation.hpp"
+#include "tcm_icp/io/output_folder.hpp"
+#include "tcm_icp/io/scan_reader.hpp"
+#include "tcm_icp/io/scan_writer.hpp"
+#include "version.hpp"
+
+namespace tcm_icp::app {
+namespace {
+
+namespace fs = std::filesystem;
+namespace po = boost::program_options;
+using Json = nlohmann::ordered_json;
+
+struct Request {
+  std::vector<std::string> scans;
+  std::string out;
+  DegradationOptions options;
+  RunContext context;
+};
+
+po::options_description describe(Request& r) {
+  DegradationOptions& o = r.options;
+  po::options_description what("Defects (shares are 0..1 of a scan's points; several may be combined)", 110);
+  what.add_options()("occlusion", bind_option(&o.occlusion_share),
+                     "share hidden, by two sectors about the vertical (z) and two boxes")  //
+      ("remove", bind_option(&o.removal_share), "share removed, anywhere")                 //
+      ("noise", bind_option(&o.noise_share), "share moved by normal noise")                //
+      ("sigma", bind_option(&o.sigma_m),
+       "standard deviation of the noise on each axis, in the unit of the scans; 0: the "
+       "scan's median point spacing")                                                                   //
+      ("blur", bind_option(&o.blur_share), "share added about edges and corners, to conceal features")  //
+      ("isolated", bind_option(&o.isolated_share), "share added away from all surfaces");
+  po::options_description run("Run", 110);
+  run.add_options()("out", po::value(&r.out)->required(),
+                    "folder to make: the scans under their names, degraded.json")             //
+      ("force", "replace an earlier result in that folder")                                   //
+      ("seed", bind_option(&r.context.seed), "the same seed gives the same bytes")            //
+      ("threads", bind_option(&r.context.num_threads), "changes the time, never the result")  //
+      ("help,h", "this text");
+  return what.add(run);
+}
+
+po::options_description with_scans(Request& r, const po::options_description& visible) {
+  po::options_description all;
+  all.add(visible).add_options()("scan", po::value(&r.scans));
+  return all;
+}
+
+void check_scans(const std::vector<std::string>& scans) {
+  if (scans.empty()) throw InvalidOptions("no scan is named: tcm-icp degrade SCAN... --out DIR --noise 0.1");
+  std::set<std::string> names;
+  for (const auto& scan : scans) {
+    if (!names.insert(fs::path(scan).filename()).second)
+      throw InvalidInput(scan + ": another scan has the same file name, and results go by it; rename one");
+    const ScanReader opened(scan, ReadAttributes::kYes);  // a missing last file should not cost the work on all others
+  }
+}
+
+struct WholeScan {
+  PointBlock block;
+  std::vector<Attribute> attributes;
+};
+
+WholeScan read_whole(const fs::path& path) {
+  ScanReader reader(path, ReadAttributes::kYes);
+  WholeScan scan{{}, reader.attributes()};
+  for (PointBlock block; reader.read(block);) {
+    scan.block.points.insert(scan.block.points.end(), block.points.begin(), block.points.end());
+    scan.block.attributes.insert(scan.block.attributes.end(), block.attributes.begin(), block.attributes.end());
+  }
+  return scan;
+}
+
+/// Attributes go with their points; those of points that were added are 0.
+PointBlock with_attributes(DegradedCloud&& cloud, const WholeScan& scan) {
+  const std::size_t stride = attribute_stride(scan.attributes);
+  PointBlock block;
+  block.attributes.resize(cloud.points.size() * stride);
+  for (std::size_t i = 0; stride > 0 && i < cloud.source.size(); ++i) {
+    if (cloud.source[i] == DegradedCloud::kAdded) continue;
+    std::memcpy(block.attributes.data() + i * stride, scan.block.attributes.data() + cloud.source[i] * stride, stride);
+  }
+  block.points = std::move(cloud.points);
+  return block;
+}
+
+/// Degrades one file; what was done, for degraded.json.
+Json degrade_file(const fs::path& path, const fs::path& to, const Request& request) {
+  const WholeScan scan = read_whole(path);
+  DegradedCloud cloud;
+  try {
+    cloud = degrade(scan.block.points, request.options, request.context.seed, path.filename().string(),
+                    request.context.num_threads);
+  } catch (const InvalidInput& e) {
+    throw InputError(path, "", e.what(), "");
+  }
+  Json steps = Json::array();
+  for (const auto& s : cloud.steps) {
+    steps.push_back({{"kind", s.kind},
+                     {"share", s.share},
+                     {"points_before", s.points_before},
+                     {"points_after", s.points_after},
+                     {"changed", s.changed},
+                     {"length_m", s.length_m}});
+  }
+  Json entry{{"file", path.filename().string()},
+             {"points_before", scan.block.size()},
+             {"points_after", cloud.points.size()},
+             {"steps", steps}};
+  write_scan(to / path.filename(), with_attributes(std::move(cloud), scan), scan.attributes);
+  return entry;
+}
+
+void print_table(const Json& scans, std::ostream& out) {
+  char line[256];
+  for (const Json& scan : scans) {
+    out << scan["file"].get<std::string>() << "  " << scan["points_before"] << " -> " << scan["points_after"]
+        << " points\n";
+    for (const Json& s : scan["steps"]) {
+      const std::string kind = s["kind"];
+      const bool has_length = s["length_m"] > 0.0;
+      std::snprintf(line, sizeof line, "  %-9s  %8zu points %s", kind.c_str(), s["changed"].get<std::size_t>(),
+                    kind == "occlusion" ? "hidden"
+                    : kind == "removal" ? "removed"
+                    : kind == "noise"   ? "moved"
+                                        : "added");
+      out << line;
+      if (has_length) {
+        std::snprintf(line, sizeof line, ", %s %.4g", kind == "isolated" ? "no nearer than" : "sigma",
+                      s["length_m"].get<double>());
+        out << line;
+      }
+      out << '\n';
+    }
+  }
+}
+
+void write_json(const Json& json, const fs::path& path) {
+  std::ofstream out(path, std::ios::binary);
+  out << json.dump(1, ' ', false, Json::error_handler_t::replace) << '\n';
+  out.close();
+  if (!out) throw OutputError(path, "cannot be written", "check the folder, its permissions and free space");
+}
+
+}  // namespace
+
+int cmd_degrade(const Arguments& arguments) {
+  Request request;
+  request.context.num_threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  const po::options_description visible = describe(request);
+  const po::options_description all = with_scans(request, visible);
+  po::positional_options_description positional;
+  positional.add("scan", -1);
+  po::variables_map given;
+  po::store(po::command_line_parser(arguments).options(all).positional(positional).run(), given);
+  if (given.count("help") > 0) {
+    std::cout
+        << "Usage: tcm-icp degrade SCAN... --out DIR [--noise P] [--isolated P] [--occlusion P] [--remove P] [--blur "
+           "P] ...\n"
+           "Copies of scans with defects put in, in this order: occlusion, removal, noise, blurring, isolated points.\n"
+           "Formats, names and attributes stay; a point that was added has 0 for every attribute, noise moves no "
+           "normals.\n\n"
+        << visible;
+    return kSuccess;
+  }
+  po::notify(given);
+  request.options.validate();
+  if (request.context.num_threads < 1)
+    throw InvalidOptions("--threads = " + std::to_string(request.context.num_threads) + "; needs >= 1");
+  check_scans(request.scans);
+  catch_interrupts();
+  Console console(/*quiet=*/false, /*verbose=*/false);
+  request.context.on_progress = [&](const Progress& p) { return console.progress(p); };
+  OutputFolder folder(request.out, given.count("force") > 0, "degraded.json");
+  Json scans = Json::array();
+  for (std::size_t i = 0; i < request.scans.size(); ++i) {
+    request.context.report("degrade", i, request.scans.size());
+    scans.push_back(degrade_file(request.scans[i], folder.work(), request));
+  }
+  write_json({{"schema", 1},
+              {"program", "tcm-icp"},
+              {"version", kVersion},
+              {"command_line", command_line("degrade", arguments)},
+              {"seed", request.context.seed},
+              {"scans", scans}},
+             folder.work() / "degraded.json");
+  folder.commit();
+  console.finish();
+  print_table(scans, std::cout);
+  return kSuccess;
+}
+
+}  // namespace tcm_icp::app
