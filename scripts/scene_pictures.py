@@ -2,7 +2,8 @@
 """Draw simulated scans to a PNG: one scan as its scanner saw it (a range image) above all scans from above.
 
   scene_pictures.py FOLDER out.png             the scans of a folder that `tcm-icp simulate` wrote
-  scene_pictures.py --all EXE docs/images      simulates every scene (6 scans, seed 1) with EXE and draws docs/images/scene-NAME.png
+  scene_pictures.py --all EXE docs/images      simulates every scene (6 scans, seed 1) with EXE and draws
+                                               docs/images/scene-NAME.png
 
 In the range image near is dark; white is no return. From above each scan has a colour of its own; crosses are the scanners.
 """
@@ -93,12 +94,14 @@ def draw_from_above(ax, scans, ceiling_m):
     ax.set_xlabel("[m]", fontsize=7)
 
 
-def draw(folder, png):
+def draw(folder, png, whole=None):
+    """`whole`: the same scans without thinning, for the range image."""
     truth, scans = load(folder)
+    _, seen = load(whole) if whole else (truth, scans)
     options = truth["scanner_options"]
     aerial = options.get("sensor") == "aerial"
     fig, (upper, lower) = plt.subplots(2, 1, figsize=(9, 8.5), facecolor="white", height_ratios=[1, 2.2])
-    (draw_strip if aerial else draw_ranges)(upper, *scans[len(scans) // 2], options)
+    (draw_strip if aerial else draw_ranges)(upper, *seen[len(scans) // 2], options)
     # From above one would see an interior's ceiling.
     draw_from_above(lower, scans, 0.6 if truth["scene"] == "interior" else np.inf)
     upper.set_title(f"{truth['scene']}, {options.get('sensor', 'terrestrial')} sensor: scan {len(scans) // 2}, "
@@ -109,8 +112,8 @@ def draw(folder, png):
     buffer = io.BytesIO()
     fig.savefig(buffer, format="png", dpi=100)
     plt.close(fig)
-    # 48 colours are enough for a figure, and a third of the bytes.
-    Image.open(buffer).convert("RGB").quantize(48).save(png, optimize=True)
+    # 64 colours are enough for a figure, and a third of the bytes.
+    Image.open(buffer).convert("RGB").quantize(64).save(png, optimize=True)
     print(f"{png}: {png.stat().st_size // 1024} KB")
 
 
@@ -118,10 +121,12 @@ def draw_all(exe, images):
     with tempfile.TemporaryDirectory() as temporary:
         for scene, sensor in SCENES:
             name = scene if sensor is None else f"{scene}-{sensor}"
-            folder = pathlib.Path(temporary) / name
-            command = [exe, "simulate", "--scene", scene, "--scans", "6", "--seed", "1", "--out", str(folder)]
-            subprocess.run(command + (["--sensor", sensor] if sensor else []), check=True, stderr=subprocess.DEVNULL)
-            draw(folder, images / f"scene-{name}.png")
+            folder, whole = pathlib.Path(temporary) / name, pathlib.Path(temporary) / (name + "-whole")
+            command = [exe, "simulate", "--scene", scene, "--scans", "6", "--seed", "1"]
+            command += ["--sensor", sensor] if sensor else []
+            for extra in (["--out", str(folder)], ["--out", str(whole), "--thinning", "0"]):
+                subprocess.run(command + extra, check=True, stderr=subprocess.DEVNULL)
+            draw(folder, images / f"scene-{name}.png", whole)
 
 
 def main():
