@@ -162,7 +162,7 @@ TEST(PaperScenes, StationsLieAsFarApartAsTheWantedOverlapAsks) {
     double sum = 0;
     for (Eigen::Index i = 0; i + 1 < 5; ++i) sum += std::max(set.truth.overlap(i, i + 1), set.truth.overlap(i + 1, i));
     shared.push_back(sum / 4);
-    EXPECT_NEAR(shared.back(), wanted, 0.15);  // places differ: what is found at two of them holds for all on average
+    EXPECT_NEAR(shared.back(), wanted, 0.15);  // places differ: what is found at four of them holds for all on average
   }
   EXPECT_GT(shared[0], shared[1] + 0.1);
 }

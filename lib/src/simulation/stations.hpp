@@ -18,7 +18,7 @@ Eigen::Isometry3d random_level_turn(double max_tilt_deg, Rng& rng);
 Eigen::Isometry3d make_station(const Scene& scene, const SceneSetOptions& options, int index, Rng& rng);
 
 /// The distance along the path at which scans share `*options.overlap`, by the larger of the two directions, on average
-/// over two places; the longest there is where they share more even so.
+/// over four places; the longest there is, about a third of the path, where they share more even so.
 double spacing_for_overlap(const Scene& scene, const SceneSetOptions& options, std::uint64_t seed, int num_threads);
 
 }  // namespace tcm_icp

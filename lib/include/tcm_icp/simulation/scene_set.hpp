@@ -67,7 +67,7 @@ struct SceneSet {
 
 /// @throws InvalidOptions  also where a scan has no returns, or a path is too short for the overlap that is wanted
 /// @throws Cancelled
-/// Cost: that of the scans; `overlap` takes 14 more.
+/// Cost: that of the scans; `overlap` takes 28 more.
 SceneSet simulate_scene_set(const SceneSetOptions& options, const RunContext& context);
 
 /// Writes 000.ply ... (binary little endian, float x y z intensity), truth.json and, where there are initial guesses,
