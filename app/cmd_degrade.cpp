@@ -2,16 +2,14 @@
 // experiments.
 
 #include <boost/program_options.hpp>
-#include <cstdio>
 #include <cstring>
-#include <fstream>
 #include <iostream>
-#include <nlohmann/json.hpp>
 #include <set>
 #include <thread>
 
 #include "command.hpp"
 #include "console.hpp"
+#include "degradation_report.hpp"
 #include "option_binding.hpp"
 #include "run_setup.hpp"
 #include "tcm_icp/core/error.hpp"
@@ -19,14 +17,12 @@
 #include "tcm_icp/io/output_folder.hpp"
 #include "tcm_icp/io/scan_reader.hpp"
 #include "tcm_icp/io/scan_writer.hpp"
-#include "version.hpp"
 
 namespace tcm_icp::app {
 namespace {
 
 namespace fs = std::filesystem;
 namespace po = boost::program_options;
-using Json = nlohmann::ordered_json;
 
 struct Request {
   std::vector<std::string> scans;
@@ -101,8 +97,8 @@ PointBlock with_attributes(DegradedCloud&& cloud, const WholeScan& scan) {
   return block;
 }
 
-/// Degrades one file; what was done, for degraded.json.
-Json degrade_file(const fs::path& path, const fs::path& to, const Request& request) {
+/// Degrades one file and writes it; what was done.
+DegradedFile degrade_file(const fs::path& path, const fs::path& to, const Request& request) {
   const WholeScan scan = read_whole(path);
   DegradedCloud cloud;
   try {
@@ -111,52 +107,9 @@ Json degrade_file(const fs::path& path, const fs::path& to, const Request& reque
   } catch (const InvalidInput& e) {
     throw InputError(path, "", e.what(), "");
   }
-  Json steps = Json::array();
-  for (const auto& s : cloud.steps) {
-    steps.push_back({{"kind", s.kind},
-                     {"share", s.share},
-                     {"points_before", s.points_before},
-                     {"points_after", s.points_after},
-                     {"changed", s.changed},
-                     {"length_m", s.length_m}});
-  }
-  Json entry{{"file", path.filename().string()},
-             {"points_before", scan.block.size()},
-             {"points_after", cloud.points.size()},
-             {"steps", steps}};
+  DegradedFile file{path.filename(), scan.block.size(), cloud.points.size(), cloud.steps};
   write_scan(to / path.filename(), with_attributes(std::move(cloud), scan), scan.attributes);
-  return entry;
-}
-
-void print_table(const Json& scans, std::ostream& out) {
-  char line[256];
-  for (const Json& scan : scans) {
-    out << scan["file"].get<std::string>() << "  " << scan["points_before"] << " -> " << scan["points_after"]
-        << " points\n";
-    for (const Json& s : scan["steps"]) {
-      const std::string kind = s["kind"];
-      const bool has_length = s["length_m"] > 0.0;
-      std::snprintf(line, sizeof line, "  %-9s  %8zu points %s", kind.c_str(), s["changed"].get<std::size_t>(),
-                    kind == "occlusion" ? "hidden"
-                    : kind == "removal" ? "removed"
-                    : kind == "noise"   ? "moved"
-                                        : "added");
-      out << line;
-      if (has_length) {
-        std::snprintf(line, sizeof line, ", %s %.4g", kind == "isolated" ? "no nearer than" : "sigma",
-                      s["length_m"].get<double>());
-        out << line;
-      }
-      out << '\n';
-    }
-  }
-}
-
-void write_json(const Json& json, const fs::path& path) {
-  std::ofstream out(path, std::ios::binary);
-  out << json.dump(1, ' ', false, Json::error_handler_t::replace) << '\n';
-  out.close();
-  if (!out) throw OutputError(path, "cannot be written", "check the folder, its permissions and free space");
+  return file;
 }
 
 }  // namespace
@@ -189,21 +142,15 @@ int cmd_degrade(const Arguments& arguments) {
   Console console(/*quiet=*/false, /*verbose=*/false);
   request.context.on_progress = [&](const Progress& p) { return console.progress(p); };
   OutputFolder folder(request.out, given.count("force") > 0, "degraded.json");
-  Json scans = Json::array();
+  DegradationReport report{command_line("degrade", arguments), request.context.seed, {}};
   for (std::size_t i = 0; i < request.scans.size(); ++i) {
     request.context.report("degrade", i, request.scans.size());
-    scans.push_back(degrade_file(request.scans[i], folder.work(), request));
+    report.files.push_back(degrade_file(request.scans[i], folder.work(), request));
   }
-  write_json({{"schema", 1},
-              {"program", "tcm-icp"},
-              {"version", kVersion},
-              {"command_line", command_line("degrade", arguments)},
-              {"seed", request.context.seed},
-              {"scans", scans}},
-             folder.work() / "degraded.json");
+  write_degradation(report, folder.work() / "degraded.json");
   folder.commit();
   console.finish();
-  print_table(scans, std::cout);
+  print_degradation(report, std::cout);
   return kSuccess;
 }
 

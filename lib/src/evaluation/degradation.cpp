@@ -3,11 +3,11 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 
+#include "evaluation/edges_and_corners.hpp"
+#include "evaluation/occlusion.hpp"
 #include "tcm_icp/core/error.hpp"
-#include "tcm_icp/core/even_sample.hpp"
 #include "tcm_icp/core/neighbor_index.hpp"
 #include "tcm_icp/core/normals.hpp"
 
@@ -18,8 +18,6 @@ using Eigen::Vector3d;
 
 constexpr double kBlurInSpacings = 3;      // an edge's neighbourhood, so that it looks round
 constexpr double kIsolatedInSpacings = 5;  // nothing would be called a neighbour that far away
-constexpr double kFeatureShare = 0.05;
-constexpr std::size_t kFeatureSample = 100000;
 
 void require_share(const char* field, double value, double most) {
   if (!(value >= 0 && value <= most))
@@ -88,45 +86,11 @@ class Degrader {
     cloud_.source.push_back(DegradedCloud::kAdded);
   }
 
-  /// Drops the `number` points with the least keys; of equal ones those that come first.
-  void drop_least(const std::vector<double>& keys, std::size_t number) {
-    std::vector<std::size_t> order(keys.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return keys[a] < keys[b]; });
-    std::vector<bool> is_kept(keys.size(), true);
-    for (std::size_t i = 0; i < number; ++i) is_kept[order[i]] = false;
-    keep_only(is_kept);
-  }
-
-  /// Two sectors and two boxes, each as wide as a quarter of what is to be hidden asks for.
   void occlude() {
-    constexpr std::size_t kParts = 4;
     Rng rng = stream("occlusion");
     const std::size_t before = points().size(), hidden = count(options_.occlusion_share);
-    Vector3d middle = Vector3d::Zero();
-    for (const auto& p : points()) middle += p / static_cast<double>(before);
-    for (std::size_t part = 0; part < kParts; ++part) {
-      const std::size_t number = hidden * (part + 1) / kParts - hidden * part / kParts;
-      part % 2 == 0 ? hide_sector(middle, number, rng) : hide_box(number, rng);
-    }
+    keep_only(visible_points(points(), hidden, rng));
     tell("occlusion", options_.occlusion_share, before, hidden, 0);
-  }
-
-  void hide_sector(const Vector3d& middle, std::size_t number, Rng& rng) {
-    const double begin = 2 * std::numbers::pi * uniform01(rng);
-    std::vector<double> keys;
-    for (const auto& p : points()) {
-      const double angle = std::atan2(p.y() - middle.y(), p.x() - middle.x()) - begin;
-      keys.push_back(angle - 2 * std::numbers::pi * std::floor(angle / (2 * std::numbers::pi)));
-    }
-    drop_least(keys, number);
-  }
-
-  void hide_box(std::size_t number, Rng& rng) {
-    const Vector3d centre = points()[uniform_index(rng, points().size())];
-    std::vector<double> keys;
-    for (const auto& p : points()) keys.push_back((p - centre).cwiseAbs().maxCoeff());
-    drop_least(keys, number);
   }
 
   void remove() {
@@ -149,27 +113,13 @@ class Degrader {
   void blur() {
     Rng rng = stream("blur");
     const double sigma = kBlurInSpacings * spacing_m("blurring");
-    const Points features = edges_and_corners();
+    const Points features = edges_and_corners(points(), threads_);
     const std::size_t before = points().size(), added = count(options_.blur_share);
     for (std::size_t i = 0; i < added; ++i) {
       const Vector3d& feature = features[uniform_index(rng, features.size())];
       add(feature + normal_offset(sigma, rng));
     }
     tell("blur", options_.blur_share, before, added, sigma);
-  }
-
-  /// The points about which surfaces vary most.
-  Points edges_and_corners() const {
-    const Points sample = even_sample(cloud_.points, kFeatureSample);
-    const auto estimate = estimate_normals(sample, NeighborIndex(sample), {}, threads_);
-    std::vector<std::size_t> order(sample.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::size_t a, std::size_t b) { return estimate.variation[a] > estimate.variation[b]; });
-    order.resize(std::max<std::size_t>(1, static_cast<std::size_t>(kFeatureShare * static_cast<double>(order.size()))));
-    Points features;
-    for (const std::size_t i : order) features.push_back(sample[i]);
-    return features;
   }
 
   void add_isolated() {
