@@ -4,6 +4,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "tcm_icp/core/statistics.hpp"
+#include "tcm_icp/core/voxel_sampler.hpp"
+
 namespace tcm_icp {
 namespace {
 
@@ -25,8 +28,8 @@ class Occlusion {
   }
 
   void hide_box(std::size_t number, Rng& rng) {
-    const auto left = visible();
-    const Vector3d centre = points_[left[uniform_index(rng, left.size())]];
+    const Points places = visible_places();
+    const Vector3d centre = places[uniform_index(rng, places.size())];
     hide_least(number, [&](const Vector3d& p) { return (p - centre).cwiseAbs().maxCoeff(); });
   }
 
@@ -38,6 +41,19 @@ class Occlusion {
     for (std::size_t i = 0; i < points_.size(); ++i)
       if (is_visible_[i]) indices.push_back(i);
     return indices;
+  }
+
+  /// One point a cell, so that where points lie densest, near the scanner, is no likelier a place than another.
+  Points visible_places() const {
+    constexpr double kCellInMedianDistances = 0.1;
+    Cloud left;
+    std::vector<double> distances_m;
+    for (const std::size_t i : visible()) {
+      left.points.push_back(points_[i]);
+      distances_m.push_back((points_[i] - middle_).norm());
+    }
+    const double cell_m = kCellInMedianDistances * median(distances_m);
+    return cell_m > 0 ? voxel_downsample(left, cell_m).points : left.points;
   }
 
   /// Hides the visible points with the least keys; of equal ones those that come first.

@@ -10,7 +10,7 @@
 namespace tcm_icp {
 
 /// All but `num_hidden` of the points: two sectors about the vertical through their mean, and two boxes about random
-/// points, hide a quarter of them each and are as wide as that asks for.
+/// places of the scan, hide a quarter of them each and are as wide as that asks for.
 std::vector<bool> visible_points(const Points& points, std::size_t num_hidden, Rng& rng);
 
 }  // namespace tcm_icp
