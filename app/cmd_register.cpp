@@ -4,10 +4,12 @@
 
 #include "command.hpp"
 #include "console.hpp"
+#include "pair_methods.hpp"
 #include "register_options.hpp"
 #include "register_table.hpp"
 #include "run_setup.hpp"
 #include "tcm_icp/core/error.hpp"
+#include "tcm_icp/pipeline/pair_pipeline.hpp"
 #include "tcm_icp/pipeline/pipeline.hpp"
 #include "tcm_icp/pipeline/result_writer.hpp"
 #include "version.hpp"
@@ -20,7 +22,16 @@ void check_usage(const RegisterOptions& o) {
     throw InvalidOptions("registration needs at least two scans, not " + std::to_string(o.scans.size()) +
                          "; name the files: tcm-icp register SCAN... --out DIR");
   }
+  if (o.method == Method::kFeatures && !o.initial_poses.empty()) {
+    throw InvalidOptions("--init: --method features finds its poses by itself; leave --init out, or use --method icp");
+  }
   if (o.out.empty()) throw InvalidOptions("--out DIR is missing: where is the result to go?");
+}
+
+PipelineResult run_method(const RegisterOptions& o, const std::vector<std::filesystem::path>& paths,
+                          const InitialPoses& guess, const RunContext& context) {
+  if (o.method == Method::kTcm) return Pipeline(o.pipeline).run(paths, guess, context);
+  return register_by_pairs(paths, guess, o.pipeline, context, name_of(o.method), pair_method(o.method));
 }
 
 }  // namespace
@@ -36,6 +47,7 @@ int cmd_register(const Arguments& arguments) {
     return kSuccess;
   }
   check_usage(o);
+  if (o.method != Method::kTcm) check_built_in(o.method);
   const auto paths = paths_of(o);
   check_output_folder(o.out, o.force);
   const InitialPoses guess = read_guess(o, paths);
@@ -44,7 +56,7 @@ int cmd_register(const Arguments& arguments) {
   Console console(o.quiet, o.verbose);
   const RunContext context = run_context(o, console);
 
-  PipelineResult result = Pipeline(o.pipeline).run(paths, guess, context);
+  PipelineResult result = run_method(o, paths, guess, context);
   write_result(o.out, o.force, paths, result, o.pipeline, context,
                {kVersion, command_line("register", arguments), o.initial_poses});
   console.finish();

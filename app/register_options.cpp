@@ -40,8 +40,22 @@ struct Names {
   }
 };
 
+constexpr Names<Method, 3> kMethods{"method",
+                                    {{{"tcm", Method::kTcm}, {"icp", Method::kIcp}, {"features", Method::kFeatures}}}};
 constexpr Names<Profile, 2> kProfiles{"profile", {{{"robust", Profile::kRobust}, {"paper", Profile::kPaper}}}};
 constexpr Names<LpSolver, 2> kSolvers{"solver", {{{"glpk", LpSolver::kGlpk}, {"cgal", LpSolver::kCgal}}}};
+constexpr Names<LpFormulation, 4> kFormulations{"lp.formulation",
+                                                {{{"plane", LpFormulation::kPointToPlane},
+                                                  {"point", LpFormulation::kPointToPoint},
+                                                  {"entries", LpFormulation::kEntries},
+                                                  {"squares", LpFormulation::kLeastSquares}}}};
+constexpr Names<MergeOrder, 6> kMergeOrders{"merge-order",
+                                            {{{"tcm", MergeOrder::kTcm},
+                                              {"paper-tcm", MergeOrder::kPaperTcm},
+                                              {"robust-tcm", MergeOrder::kRobustTcm},
+                                              {"overlap", MergeOrder::kOverlap},
+                                              {"file", MergeOrder::kFile},
+                                              {"random", MergeOrder::kRandom}}}};
 constexpr Names<OutlierMethod, 4> kOutlierMethods{"outliers",
                                                   {{{"kmeans", OutlierMethod::kKMeans},
                                                     {"distance", OutlierMethod::kDistance},
@@ -55,19 +69,23 @@ constexpr Names<Refinement, 4> kRefinements{"refinement",
 
 // What the command line holds as text before it becomes an enumeration.
 struct Choices {
-  std::string profile, solver, outliers, refinement;
+  std::string profile, solver, outliers, refinement, formulation, merge_order, method = "tcm";
 
   explicit Choices(const PipelineOptions& p)
       : profile(kProfiles.name(p.profile)),
         solver(kSolvers.name(p.lp.lp.solver)),
         outliers(kOutlierMethods.name(p.outliers.method)),
-        refinement(kRefinements.name(p.refinement.method)) {}
+        refinement(kRefinements.name(p.refinement.method)),
+        formulation(kFormulations.name(p.placement.formulation)),
+        merge_order(kMergeOrders.name(p.merge_order)) {}
 
   void apply(PipelineOptions& p) const {
     p.profile = kProfiles.parse(profile);
     p.lp.lp.solver = kSolvers.parse(solver);
     p.outliers.method = kOutlierMethods.parse(outliers);
     p.refinement.method = kRefinements.parse(refinement);
+    p.placement.formulation = kFormulations.parse(formulation);
+    p.merge_order = kMergeOrders.parse(merge_order);
   }
 };
 
@@ -119,12 +137,20 @@ po::options_description sampling_options(PipelineOptions& p) {
 po::options_description configurable(RegisterOptions& o, Choices& c) {
   PipelineOptions& p = o.pipeline;
   po::options_description main("Method");
+  main.add_options()("method", value(c.method),
+                     "tcm: this program's; icp, features: conventional ones to compare with (no outlier removal unless "
+                     "asked for, no verdicts)");
   add_comparison_options(o, c, main);
   main.add_options()("reference", value(p.reference),
                      "file of the reference scan; empty: the correspondence graph chooses")(
+      "merge-order", value(c.merge_order),
+      "which scan is merged next: tcm (as the profile measures it), paper-tcm, robust-tcm, overlap, file or random")(
       "solver", value(c.solver), "simplex solver: glpk or cgal (exact, slow, for comparison)");
   po::options_description placement("Simplex, refinement, adjustment");
-  placement.add_options()("lp.max-pivots", value(p.lp.lp.max_pivots), "most simplex pivots of one program")(
+  placement.add_options()(
+      "lp.formulation", value(c.formulation),
+      "what a step of the robust profile minimises: plane or point (6 parameters), entries (the paper's 12), squares "
+      "(least squares, no simplex)")("lp.max-pivots", value(p.lp.lp.max_pivots), "most simplex pivots of one program")(
       "lp.max-seconds", value(p.lp.lp.max_seconds), "[s] longest time of one program")(
       "lp.coarse-points", value(p.placement.coarse_points), "points of a scan in the coarse programs")(
       "lp.fine-points", value(p.placement.fine_points), "points of a scan in the fine programs")(
@@ -193,6 +219,14 @@ void store_checked(const po::parsed_options& parsed, po::variables_map& map) {
   refuse_negative_counts(parsed, map);
 }
 
+// The published rivals have no outlier removal: none unless it is asked for.
+void use_conventional_defaults(const po::variables_map& map, Choices& choices) {
+  if (choices.profile != kProfiles.name(Profile::kRobust)) {
+    throw InvalidOptions("--profile " + choices.profile + " belongs to --method tcm; leave one of the two out");
+  }
+  if (map["outliers"].defaulted()) choices.outliers = kOutlierMethods.name(OutlierMethod::kNone);
+}
+
 void read_config(const std::string& path, const po::options_description& options, po::variables_map& map) {
   std::ifstream in(path);
   if (!in || std::filesystem::is_directory(path)) {
@@ -223,6 +257,8 @@ RegisterOptions parse_register_options(const Arguments& arguments) {
   store_checked(po::command_line_parser(arguments).options(all).positional(positional).style(kStyle).run(), map);
   if (map.count("config") != 0) read_config(map["config"].as<std::string>(), file_options, map);
   po::notify(map);
+  o.method = kMethods.parse(choices.method);
+  if (o.method != Method::kTcm) use_conventional_defaults(map, choices);
   finish(o, choices);
   return o;
 }
@@ -267,6 +303,7 @@ void print_register_help(std::ostream& out) {
 void print_register_config(const RegisterOptions& options, std::ostream& out) {
   RegisterOptions o = options;
   Choices choices(o.pipeline);
+  choices.method = kMethods.name(o.method);
   // The defaults of a description made from the effective values are the effective values.
   const po::options_description description = configurable(o, choices);
   po::variables_map map;

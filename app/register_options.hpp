@@ -25,7 +25,10 @@ struct ScanSetOptions {
   bool help = false;
 };
 
+enum class Method { kTcm, kIcp, kFeatures };
+
 struct RegisterOptions : ScanSetOptions {
+  Method method = Method::kTcm;
   std::string out;
   bool force = false;
   bool print_config = false;

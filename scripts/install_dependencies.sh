@@ -5,9 +5,12 @@ set -euo pipefail
 
 usage() {
   cat <<'TEXT'
-Usage: install_dependencies.sh [--tests] [--checks] [--benchmarks] [--comparison]
+Usage: install_dependencies.sh [--tests] [--checks] [--conventional] [--paper] [--benchmarks] [--comparison]
   --tests       also what the tests need (GoogleTest)
   --checks      also what the format and script checks need (clang-format, shellcheck)
+  --conventional
+                also what register --method icp and features need (PCL: with its dependencies about 1 GB)
+  --paper       also what scripts/paper_tables.py and scripts/ablations.py need (PCL, numpy, matplotlib)
   --benchmarks  also what the benchmarks compare with (Google Benchmark, nanoflann, PCL: more than 1 GB)
   --comparison  also what scripts/compare_registration.py compares with (PCL, Open3D for Python)
 TCM_ICP_SKIP_INSTALL=1 turns the script off: for systems other than Debian, where the libraries came another way.
@@ -21,6 +24,8 @@ while (($# > 0)); do
   case $1 in
     --tests) packages+=(libgtest-dev) ;;
     --checks) packages+=(clang-format shellcheck) ;;
+    --conventional) packages+=(libpcl-dev) ;;
+    --paper) packages+=(libpcl-dev python3-matplotlib python3-numpy) ;;
     --benchmarks) packages+=(libbenchmark-dev libnanoflann-dev libpcl-dev python3) ;;
     --comparison) packages+=(libbenchmark-dev libpcl-dev python3-numpy python3-open3d) ;;
     -h | --help) usage; exit 0 ;;

@@ -27,7 +27,7 @@ closing_line() {
     }' "$1"
 }
 
-quiet_step install scripts/install_dependencies.sh --tests || fail "dependencies cannot be installed"
+quiet_step install scripts/install_dependencies.sh --tests --conventional || fail "dependencies cannot be installed"
 quiet_step configure cmake --preset release -DTCM_ICP_BUILD_TESTS=ON || fail "configuring failed"
 quiet_step build cmake --build build/release --parallel "$(nproc)" || fail "the build failed"
 

@@ -35,6 +35,8 @@ TEST_F(Usage, RefusesUnknownNamesAndTellsTheKnown) {
   expect_bad({"--solver", "soplex"}, {"--solver 'soplex'", "glpk, cgal"});
   expect_bad({"--outliers", "some"}, {"--outliers 'some'", "kmeans"});
   expect_bad({"--refinement", "icp"}, {"--refinement 'icp'", "descent"});
+  expect_bad({"--lp.formulation", "13"}, {"--lp.formulation '13'", "plane, point, entries, squares"});
+  expect_bad({"--merge-order", "size"}, {"--merge-order 'size'", "overlap, file, random"});
 }
 
 TEST_F(Usage, RefusesNumbersOutOfBounds) {

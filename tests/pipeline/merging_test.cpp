@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "pipeline/prepared_scene.hpp"
 #include "pipeline/synthetic_links.hpp"
 
@@ -132,6 +134,44 @@ TEST_F(MergingTest, WeakScansComeAfterStrongOnes) {
   m.run(records_);
   EXPECT_EQ(order(records_), (std::vector<std::size_t>{2, 3, 1}));
   EXPECT_EQ(m.placed(), std::vector<bool>(4, true));
+}
+
+TEST_F(MergingTest, TheOrderAskedForIsKept) {
+  see_yard(4);
+  for (std::size_t i = 1; i < 4; ++i) link(0, i, kStrong);
+  std::set<std::vector<std::size_t>> drawn;
+  for (const MergeOrder wanted :
+       {MergeOrder::kFile, MergeOrder::kOverlap, MergeOrder::kPaperTcm, MergeOrder::kRobustTcm, MergeOrder::kRandom}) {
+    for (context_.seed = 0; context_.seed < (wanted == MergeOrder::kRandom ? 8u : 1u); ++context_.seed) {
+      options_.merge_order = wanted;
+      records_.clear();
+      Merging m = merging();
+      m.run(records_);
+      EXPECT_EQ(m.placed(), std::vector<bool>(4, true)) << static_cast<int>(wanted);
+      if (wanted == MergeOrder::kFile) {
+        EXPECT_EQ(order(records_), (std::vector<std::size_t>{1, 2, 3}));
+      }
+      if (wanted == MergeOrder::kRandom) drawn.insert(order(records_));
+    }
+  }
+  EXPECT_GT(drawn.size(), 1u) << "of 6 orders, 8 draws must not give the same one every time";
+}
+
+TEST_F(MergingTest, TcmIsTheRobustOneUnlessThePapersIsAskedFor) {
+  see_yard(3);
+  link(0, 1, kStrong);
+  link(0, 2, kStrong);
+  std::vector<double> tau;
+  for (const MergeOrder wanted : {MergeOrder::kTcm, MergeOrder::kRobustTcm, MergeOrder::kPaperTcm}) {
+    options_.merge_order = wanted;
+    records_.clear();
+    Merging m = merging();
+    m.run(records_);
+    ASSERT_FALSE(records_.empty());
+    tau.push_back(records_.front().tcm.tau());
+  }
+  EXPECT_EQ(tau[0], tau[1]);
+  EXPECT_NE(tau[0], tau[2]);
 }
 
 TEST_F(MergingTest, LinksThatAreTooWeakAreNotTried) {

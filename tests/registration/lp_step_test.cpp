@@ -128,5 +128,57 @@ TEST(LpPointToPlaneStep, MatchesInOnePlaceOrNoneAreTooFew) {
   EXPECT_EQ(figures.num_programs, 0);
 }
 
+constexpr LpFormulation kFormulations[] = {LpFormulation::kPointToPlane, LpFormulation::kPointToPoint,
+                                           LpFormulation::kEntries, LpFormulation::kLeastSquares};
+
+TEST(RegistrationStep, EveryFormulationFindsAnExactMotion) {
+  Rng rng = make_stream(4, "lp_step_test");
+  const auto matches = make_matches(150, 1e-3 * small_twist(), 0, rng);
+  const Isometry3d truth = isometry_from_twist(1e-3 * small_twist());
+  ASSERT_FALSE(testing::is_pose_near(truth, Isometry3d::Identity(), 3e-5, 1e-4));
+  for (const LpFormulation formulation : kFormulations) {
+    LpFigures figures;
+    Isometry3d T = Isometry3d::Identity();
+    double step_m = 0;
+    ASSERT_EQ(registration_step(formulation, matches, {}, T, figures, step_m), Termination::kConverged);
+    // The linearisation is off by the square of the rotation, 5e-9 rad^2, over 10 m; the noise against ties is 1e-6 of
+    // the coordinates where they are what is fitted (12 entries), and averages out over 150 matches.
+    EXPECT_TRUE(testing::is_pose_near(truth, T, 3e-7, 1e-6)) << static_cast<int>(formulation);
+    EXPECT_GT(step_m, 1e-4);
+    EXPECT_EQ(figures.num_programs, formulation == LpFormulation::kLeastSquares ? 0
+                                    : formulation == LpFormulation::kEntries    ? 3
+                                                                                : 1);
+  }
+}
+
+TEST(RegistrationStep, GrossErrorsMoveLeastSquaresAndNotTheProgram) {
+  Rng rng = make_stream(5, "lp_step_test");
+  auto matches = make_matches(150, 1e-3 * small_twist(), 0, rng);
+  for (std::size_t i = 0; i < matches.size(); i += 5) matches[i].target += Vector3d(1, 2, 3);
+  const auto error_m = [&](LpFormulation formulation) {
+    LpFigures figures;
+    Isometry3d T = Isometry3d::Identity();
+    double step_m = 0;
+    EXPECT_EQ(registration_step(formulation, matches, {}, T, figures, step_m), Termination::kConverged);
+    return (T.translation() - isometry_from_twist(1e-3 * small_twist()).translation()).norm();
+  };
+  for (const LpFormulation formulation :
+       {LpFormulation::kPointToPlane, LpFormulation::kPointToPoint, LpFormulation::kEntries}) {
+    EXPECT_LT(error_m(formulation), 1e-6) << static_cast<int>(formulation);
+  }
+  EXPECT_GT(error_m(LpFormulation::kLeastSquares), 0.05);
+}
+
+TEST(RegistrationStep, MatchesInOnePlaceAreTooFewForEveryFormulation) {
+  const std::vector<Correspondence> matches(3, {{1, 2, 3}, {1, 2, 4}, {0, 0, 1}});
+  for (const LpFormulation formulation : kFormulations) {
+    LpFigures figures;
+    Isometry3d T = Isometry3d::Identity();
+    double step_m = 0;
+    EXPECT_EQ(registration_step(formulation, matches, {}, T, figures, step_m), Termination::kTooFewCorrespondences);
+    EXPECT_TRUE(T.isApprox(Isometry3d::Identity(), 0));
+  }
+}
+
 }  // namespace
 }  // namespace tcm_icp

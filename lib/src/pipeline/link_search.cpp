@@ -89,6 +89,7 @@ CandidateLink fit_candidates(const std::vector<PreparedScan>& scans, std::size_t
   const double voxel_m = target.pyramid.level(0).voxel_size_m;
   const Cloud sample = even_sample(source.coarse_sample, kFitPoints);
   LpRegistrationOptions lp;
+  lp.formulation = options.placement.formulation;
   lp.lp = options.lp;
   lp.initial_gate_m = kFirstGate * voxel_m;
   lp.final_gate_m = kLastGate * voxel_m;

@@ -4,6 +4,8 @@
 
 #include "placement.hpp"
 #include "tcm_icp/core/parallel.hpp"
+#include "tcm_icp/core/random.hpp"
+#include "tcm_icp/graph/correspondence_measure.hpp"
 
 namespace tcm_icp {
 namespace {
@@ -12,6 +14,11 @@ namespace {
 constexpr std::size_t kMinPoints = 2;
 /// Scans whose links say so much go first: what is merged wrongly misleads all that follow.
 constexpr double kStrongLogOdds = 6;
+
+bool uses_paper_tcm(const PipelineOptions& options) {
+  if (options.merge_order == MergeOrder::kPaperTcm) return true;
+  return options.profile == Profile::kPaper && options.merge_order != MergeOrder::kRobustTcm;
+}
 
 }  // namespace
 
@@ -50,7 +57,7 @@ void Merging::run(std::vector<MergeRecord>& records) {
     std::vector<MergeCandidate> candidates;
     for (const auto& choice : open) candidates.push_back({choice.scan, {}});
     compute_tcm(open, candidates);
-    const std::size_t q = next_scan_to_merge(candidates);
+    const std::size_t q = choose_next(open, candidates);
     const std::size_t before = num_merged_;
     for (std::size_t k = 0; k < open.size(); ++k) {
       if (open[k].scan == q) merge(open[k], candidates[k].terms, records);
@@ -92,7 +99,7 @@ std::vector<Merging::Choice> Merging::choices(bool with_weak_links) {
 }
 
 void Merging::compute_tcm(const std::vector<Choice>& choices, std::vector<MergeCandidate>& candidates) {
-  if (in_.options.profile == Profile::kPaper) {
+  if (uses_paper_tcm(in_.options)) {
     const TcmCloud s(target_.level(0).cloud.points);
     for (std::size_t k = 0; k < choices.size(); ++k) {
       candidates[k].terms = tcm_terms(s, TcmCloud(in_.scans[choices[k].scan].pyramid.level(0).cloud.points),
@@ -109,6 +116,25 @@ void Merging::compute_tcm(const std::vector<Choice>& choices, std::vector<MergeC
       candidates[k].terms = robust_tcm_terms(*merged_tcm_cloud_, *cloud, choices[k].starts.front().T_reference_scan);
     }
   });
+}
+
+std::size_t Merging::choose_next(const std::vector<Choice>& choices, const std::vector<MergeCandidate>& candidates) {
+  if (in_.options.merge_order == MergeOrder::kFile) return choices.front().scan;
+  if (in_.options.merge_order == MergeOrder::kRandom) {
+    Rng rng = make_stream(in_.context.seed, "merge order", std::to_string(num_choices_++));
+    return choices[uniform_index(rng, choices.size())].scan;
+  }
+  if (in_.options.merge_order != MergeOrder::kOverlap) return next_scan_to_merge(candidates);
+  const PyramidLevel& s = target_.level(1);
+  std::size_t best = 0;
+  double most = -1;
+  for (std::size_t k = 0; k < choices.size(); ++k) {
+    const PyramidLevel& scan = in_.scans[choices[k].scan].pyramid.level(1);
+    const double mine = overlap({s.cloud.points, s.index}, {scan.cloud.points, scan.index},
+                                choices[k].starts.front().T_reference_scan, 2 * s.voxel_size_m);
+    if (mine > most) most = mine, best = k;
+  }
+  return choices[best].scan;
 }
 
 // The fit, or a better pose nearby, may have left what the links lead to.

@@ -50,6 +50,7 @@ class Merging {
   };
 
   std::vector<Choice> choices(bool with_weak_links);
+  std::size_t choose_next(const std::vector<Choice>& choices, const std::vector<MergeCandidate>& candidates);
   void compute_tcm(const std::vector<Choice>& choices, std::vector<MergeCandidate>& candidates);
   void merge(const Choice& choice, const TcmTerms& terms, std::vector<MergeRecord>& records);
   void ask_links(std::size_t scan, const Eigen::Isometry3d& T, MergeRecord& record);
@@ -64,6 +65,7 @@ class Merging {
   std::vector<std::size_t> tried_with_;  ///< what a scan had to start from at its last attempt: neighbours or size of S
   std::vector<int> attempts_;
   std::size_t num_merged_ = 1;
+  std::size_t num_choices_ = 0;  ///< made at random
   MergedCloud merged_;
   ScanPyramid target_;
   std::vector<std::optional<RobustTcmCloud>> tcm_clouds_;  ///< of the scans, once they are asked for

@@ -18,13 +18,6 @@
 namespace tcm_icp {
 namespace {
 
-std::size_t find_scan(const std::vector<std::filesystem::path>& paths, const std::string& name) {
-  for (std::size_t i = 0; i < paths.size(); ++i) {
-    if (paths[i].filename() == name || paths[i] == name) return i;
-  }
-  throw InvalidOptions("--reference " + name + ": no scan of that name; it must be one of the files given");
-}
-
 class Run {
  public:
   Run(const PipelineOptions& options, const RunContext& context)

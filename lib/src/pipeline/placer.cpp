@@ -156,6 +156,7 @@ RegistrationResult Placer::fit_fine(const Cloud& surfaces, const RegistrationRes
 
 LpRegistrationOptions Placer::lp_options(double initial_gate_m, double final_gate_m, int max_programs) const {
   LpRegistrationOptions lp;
+  lp.formulation = options_.placement.formulation;
   lp.lp = options_.lp;
   lp.initial_gate_m = initial_gate_m;
   lp.final_gate_m = final_gate_m;

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "report_parts.hpp"
 #include "tcm_icp/pipeline/result_writer.hpp"
 
@@ -57,9 +59,33 @@ Json to_json(const MergeRecord& m, const PipelineResult& result) {
   return j;
 }
 
+// What a conventional method found; its poses follow the pairs of the tree.
+Json pairs_json(const PipelineResult& result) {
+  Json pairs = Json::array();
+  long long icp = 0, ransac = 0;
+  for (std::size_t k = 0; k < result.pairs.size(); ++k) {
+    const PairFit& p = result.pairs[k];
+    const bool in_tree = std::find(result.pair_tree.begin(), result.pair_tree.end(), k) != result.pair_tree.end();
+    icp += p.icp_iterations;
+    ransac += p.ransac_iterations;
+    pairs.push_back({{"source", result.scans[p.source].file},
+                     {"target", result.scans[p.target].file},
+                     {"in_tree", in_tree},
+                     {"converged", p.converged},
+                     {"mean_distance_m", number(p.mean_distance_m)},
+                     {"share", p.share},
+                     {"iterations", {{"icp", p.icp_iterations}, {"ransac", p.ransac_iterations}}}});
+  }
+  return {{"feature_voxel_m", result.feature_voxel_m > 0 ? Json(result.feature_voxel_m) : Json()},
+          {"iterations", {{"icp", icp}, {"ransac", ransac}}},
+          {"pairs", pairs}};
+}
+
 Json options_json(const PipelineOptions& o, const RunContext& context) {
   return {{"profile", o.profile == Profile::kPaper ? "paper" : "robust"},
           {"solver", to_string(o.lp.lp.solver)},
+          {"lp_formulation", name_of(o.placement.formulation)},
+          {"merge_order", name_of(o.merge_order)},
           {"reference", o.reference},
           {"graph_threshold", o.graph_threshold},
           {"outliers", name_of(o.outliers.method)},
@@ -99,6 +125,7 @@ std::string report_json(const PipelineResult& result, const PipelineOptions& opt
               {"version", description.version},
               {"command_line", description.command_line},
               {"initial_poses", description.initial_poses.empty() ? Json(nullptr) : Json(description.initial_poses)},
+              {"method", result.method},
               {"options", options_json(options, context)},
               {"coarse_voxel_m", result.coarse_voxel_m},
               {"fine_voxel_m", result.fine_voxel_m}};
@@ -114,6 +141,7 @@ std::string report_json(const PipelineResult& result, const PipelineOptions& opt
     }
   }
   report["graph"] = to_json(result.graph, result.reference, result.scans);
+  if (result.method != "tcm") report["conventional"] = pairs_json(result);
   report["merges"] = Json::array();
   for (const auto& m : result.merges) report["merges"].push_back(to_json(m, result));
   report["adjustment"] = adjustment_json(result);

@@ -16,6 +16,38 @@ Json to_json(const Eigen::MatrixXd& matrix) {
   return rows;
 }
 
+const char* name_of(LpFormulation formulation) {
+  switch (formulation) {
+    case LpFormulation::kPointToPlane:
+      return "plane";
+    case LpFormulation::kPointToPoint:
+      return "point";
+    case LpFormulation::kEntries:
+      return "entries";
+    case LpFormulation::kLeastSquares:
+      return "squares";
+  }
+  return "unknown";
+}
+
+const char* name_of(MergeOrder order) {
+  switch (order) {
+    case MergeOrder::kTcm:
+      return "tcm";
+    case MergeOrder::kPaperTcm:
+      return "paper-tcm";
+    case MergeOrder::kRobustTcm:
+      return "robust-tcm";
+    case MergeOrder::kOverlap:
+      return "overlap";
+    case MergeOrder::kFile:
+      return "file";
+    case MergeOrder::kRandom:
+      return "random";
+  }
+  return "unknown";
+}
+
 const char* name_of(OutlierMethod method) {
   switch (method) {
     case OutlierMethod::kKMeans:

@@ -7,6 +7,7 @@
 
 #include "tcm_icp/graph/correspondence_graph.hpp"
 #include "tcm_icp/outliers/outlier_removal.hpp"
+#include "tcm_icp/pipeline/pipeline_options.hpp"
 #include "tcm_icp/pipeline/pipeline_result.hpp"
 
 namespace tcm_icp {
@@ -20,6 +21,8 @@ Json number(double value);
 Json to_json(const Eigen::MatrixXd& matrix);
 
 const char* name_of(OutlierMethod method);
+const char* name_of(LpFormulation formulation);
+const char* name_of(MergeOrder order);
 Json to_json(const ScanSummary& scan);
 Json to_json(const LpFigures& lp);
 Json to_json(const CorrespondenceGraph& graph, std::size_t reference, const std::vector<ScanSummary>& scans);

@@ -57,7 +57,7 @@ Points stream_into_sample(Scan& scan, std::size_t max_points) {
 }  // namespace
 
 SampledScan sample_scan(const std::filesystem::path& path, const PipelineOptions& options, std::uint64_t seed,
-                        int num_threads) {
+                        int num_threads, ScanNormals normals) {
   SampledScan out;
   Scan& scan = out.scan;
   scan.path = path;
@@ -76,6 +76,7 @@ SampledScan sample_scan(const std::filesystem::path& path, const PipelineOptions
   const NeighborIndex index(scan.cloud.points);
   scan.spacing_m = median_spacing(scan.cloud.points, index);
   scan.extent_m = robust_extent(scan.cloud.points);
+  if (normals == ScanNormals::kNone) return out;
   NormalEstimate estimate = estimate_normals(scan.cloud.points, index, {}, num_threads);
   std::vector<double> roughness;
   for (std::size_t i = 0; i < estimate.normals.size(); ++i) {

@@ -16,10 +16,14 @@ struct SampledScan {
   OutlierRule outliers;
 };
 
+/// Whether a scan needs normals: a conventional ICP does not, and should not pay for them.
+enum class ScanNormals { kEstimated, kNone };
+
 /// Streams the file through a voxel sampler (origin: its first point), learns the outlier rule and applies it to the
-/// working cloud, then estimates normals. Memory follows max_working_points.
+/// working cloud, then estimates normals if they are wanted; without them the noise is 0. Memory follows
+/// max_working_points.
 /// @throws InputError, InvalidInput
 SampledScan sample_scan(const std::filesystem::path& path, const PipelineOptions& options, std::uint64_t seed,
-                        int num_threads);
+                        int num_threads, ScanNormals normals = ScanNormals::kEstimated);
 
 }  // namespace tcm_icp

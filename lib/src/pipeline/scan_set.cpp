@@ -28,6 +28,13 @@ double correspondence(const PreparedScan& scan_a, const PreparedScan& scan_b, co
 
 }  // namespace
 
+std::size_t find_scan(const std::vector<std::filesystem::path>& paths, const std::string& name) {
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    if (paths[i].filename() == name || paths[i] == name) return i;
+  }
+  throw InvalidOptions("--reference " + name + ": no scan of that name; it must be one of the files given");
+}
+
 void check_paths(const std::vector<std::filesystem::path>& paths, const InitialPoses& initial_poses) {
   if (initial_poses.size() != paths.size()) {
     throw InvalidOptions(std::to_string(initial_poses.size()) + " initial poses for " + std::to_string(paths.size()) +
@@ -48,7 +55,7 @@ void check_paths(const std::vector<std::filesystem::path>& paths, const InitialP
 }
 
 std::vector<SampledScan> read_scans(const std::vector<std::filesystem::path>& paths, const PipelineOptions& options,
-                                    const RunContext& context) {
+                                    const RunContext& context, ScanNormals normals) {
   // All headers first: the last file's absence should not cost the reading of all others.
   for (const auto& path : paths) const ScanReader opened(path, ReadAttributes::kNo);
   std::vector<SampledScan> scans(paths.size());
@@ -58,7 +65,7 @@ std::vector<SampledScan> read_scans(const std::vector<std::filesystem::path>& pa
     const std::size_t count = std::min(batch, paths.size() - first);
     parallel_for(context.num_threads, count, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = first + begin; i < first + end; ++i) {
-        scans[i] = sample_scan(paths[i], options, context.seed, 1);
+        scans[i] = sample_scan(paths[i], options, context.seed, 1, normals);
       }
     });
   }

@@ -16,6 +16,9 @@ namespace tcm_icp {
 /// Least share of a scan's points near another for the pair to be a link of the robust graph.
 constexpr double kMinLinkOverlap = 0.1;
 
+/// The scan named by --reference: by its path or its file name. @throws InvalidOptions  if there is none
+std::size_t find_scan(const std::vector<std::filesystem::path>& paths, const std::string& name);
+
 /// @throws InvalidInput    a file named twice, or two files of one name
 /// @throws InvalidOptions  another number of initial poses than of files
 void check_paths(const std::vector<std::filesystem::path>& paths, const InitialPoses& initial_poses);
@@ -23,7 +26,7 @@ void check_paths(const std::vector<std::filesystem::path>& paths, const InitialP
 /// sample_scan() for each file, as many at once as there are threads. Reports "reading".
 /// @throws InputError, InvalidInput, Cancelled
 std::vector<SampledScan> read_scans(const std::vector<std::filesystem::path>& paths, const PipelineOptions& options,
-                                    const RunContext& context);
+                                    const RunContext& context, ScanNormals normals = ScanNormals::kEstimated);
 
 ScanSummary summarize(const SampledScan& scan);
 

@@ -5,8 +5,6 @@
 #include <numbers>
 #include <string>
 
-#include "determined_directions.hpp"
-#include "lp_figures.hpp"
 #include "tcm_icp/core/error.hpp"
 #include "tcm_icp/core/rigid_transform.hpp"
 #include "tcm_icp/core/statistics.hpp"
@@ -72,41 +70,6 @@ void LpRegistrationOptions::validate() const {
   lp.validate();
 }
 
-Termination lp_point_to_plane_step(const std::vector<Correspondence>& matches, const L1FitOptions& options,
-                                   Eigen::Isometry3d& T_target_source, LpFigures& figures, double& step_m) {
-  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
-  for (const auto& m : matches) centre += m.source;
-  centre /= static_cast<double>(matches.size());
-  double squared_radius = 0;
-  for (const auto& m : matches) squared_radius += (m.source - centre).squaredNorm();
-  const double radius = std::sqrt(squared_radius / static_cast<double>(matches.size()));
-  if (!(radius > 0)) return Termination::kTooFewCorrespondences;
-
-  const auto n = static_cast<Eigen::Index>(matches.size());
-  Eigen::MatrixXd A(n, 6);
-  Eigen::VectorXd d(n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const auto& m = matches[static_cast<std::size_t>(i)];
-    // n . (w x (p - c)) = w . ((p - c) x n); unknowns (w radius, t), all in metres
-    A.row(i).head<3>() = (m.source - centre).cross(m.normal).transpose() / radius;
-    A.row(i).tail<3>() = m.normal.transpose();
-    d[i] = -m.normal.dot(m.source - m.target);
-  }
-  // Where all normals are parallel but for rounding, fit_l1 would scale the rounding up to a determined column, and the
-  // scan would slide away without end.
-  const Eigen::MatrixXd basis = determined_directions(A, options.rank_tolerance);
-  const L1FitResult fit = fit_l1(A * basis, d, options);
-  figures += figures_of(fit);
-  if (!fit.optimal()) return termination_of(fit.status);
-  Twist twist = basis * fit.x;
-  step_m = twist.norm();
-  twist.head<3>() /= radius;
-  T_target_source = isometry_about(centre, twist) * T_target_source;
-  // Thousands of products drift off SO(3) by rounding.
-  T_target_source.linear() = project_onto_so3(T_target_source.linear());
-  return Termination::kConverged;
-}
-
 RegistrationResult register_lp(const Cloud& source, const ScanPyramid& target, const Eigen::Isometry3d& T_init,
                                const LpRegistrationOptions& options) {
   options.validate();
@@ -131,7 +94,8 @@ RegistrationResult register_lp(const Cloud& source, const ScanPyramid& target, c
     }
     result.median_residual_m = median_plane_distance(matches);
     double step_m = 0;
-    const Termination step = lp_point_to_plane_step(matches, options.lp, result.T_target_source, result.lp, step_m);
+    const Termination step =
+        registration_step(options.formulation, matches, options.lp, result.T_target_source, result.lp, step_m);
     if (step != Termination::kConverged) {
       result.termination = step;
       return result;

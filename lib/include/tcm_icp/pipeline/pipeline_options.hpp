@@ -6,6 +6,7 @@
 
 #include "tcm_icp/outliers/outlier_removal.hpp"
 #include "tcm_icp/registration/l1_fit.hpp"
+#include "tcm_icp/registration/lp_registration.hpp"
 #include "tcm_icp/tcm/robust_tcm.hpp"
 
 namespace tcm_icp {
@@ -16,6 +17,16 @@ enum class Profile {
 };
 
 enum class Refinement { kNone, kDescent, kAnnealing, kDescentThenAnnealing };
+
+/// Which of the scans that may be merged is merged next.
+enum class MergeOrder {
+  kTcm,        ///< least tau, as the profile measures it
+  kPaperTcm,   ///< least tau by the paper's equations
+  kRobustTcm,  ///< least tau by quantiles
+  kOverlap,    ///< largest overlap with what is merged
+  kFile,       ///< as the files stand
+  kRandom,     ///< drawn with the seed
+};
 
 /// How many points stand for a scan. Lengths follow from these numbers and the data.
 struct SamplingOptions {
@@ -28,9 +39,10 @@ struct SamplingOptions {
 
 /// Placing one scan against what is merged.
 struct PlacementOptions {
-  int coarse_points = 1500;     ///< >= 100; points of a scan in its coarse linear programs
-  int fine_points = 3000;       ///< >= 100; and in the finer ones
-  int held_out_points = 1500;   ///< >= 100; points kept from every fit, for verification
+  LpFormulation formulation = LpFormulation::kPointToPlane;  ///< of every step of the robust profile
+  int coarse_points = 1500;                                  ///< >= 100; points of a scan in its coarse linear programs
+  int fine_points = 3000;                                    ///< >= 100; and in the finer ones
+  int held_out_points = 1500;                                ///< >= 100; points kept from every fit, for verification
   int search_steps = 1500;      ///< >= 0; annealing steps where the fit from the initial guess fails verification
   int adjustment_lp_steps = 2;  ///< >= 0; linear programs over all poses at once, at the fine resolution
   int adjustment_steps = 10;    ///< >= 0; Gauss-Newton steps over all poses at once, after the programs
@@ -50,7 +62,8 @@ struct RefinementOptions {
 
 struct PipelineOptions {
   Profile profile = Profile::kRobust;
-  std::string reference;       ///< file of the reference scan; empty: chosen by the correspondence graph
+  std::string reference;  ///< file of the reference scan; empty: chosen by the correspondence graph
+  MergeOrder merge_order = MergeOrder::kTcm;
   double graph_threshold = 0;  ///< >= 0; measure below which scans are connected; 0: from the data
   /// Scans were levelled: z points up in each (kMaxLevelTilt_deg). Links that tilt one against another are not tried.
   bool level = false;

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "tcm_icp/baselines/pair_fit.hpp"
 #include "tcm_icp/coarse/pose_candidate.hpp"
 #include "tcm_icp/graph/correspondence_graph.hpp"
 #include "tcm_icp/io/pose_io.hpp"
@@ -89,6 +90,7 @@ struct StageRecord {
 };
 
 struct PipelineResult {
+  std::string method = "tcm";  ///< tcm, or the conventional method that registered the scans
   std::size_t reference = 0;
   std::vector<ScanSummary> scans;
   std::vector<ScanPose> poses;  ///< for raw coordinates, in the order of the scans
@@ -101,6 +103,9 @@ struct PipelineResult {
   JointUncertainty uncertainty;  ///< of the same, in the reference's local frame; no poses in the paper profile
   std::vector<LinkRecord> links;
   std::vector<LinkHypothesisRecord> hypotheses;  ///< none where all scans had guesses
+  std::vector<PairFit> pairs;                    ///< of a conventional method; in local frames
+  std::vector<std::size_t> pair_tree;            ///< positions of those that the poses follow
+  double feature_voxel_m = 0;                    ///< [m] a conventional method computed features at; 0: none
   std::vector<StageRecord> stages;
   double coarse_voxel_m = 0;  ///< [m] resolution scans were placed with
   double fine_voxel_m = 0;    ///< [m] resolution they were adjusted with

@@ -9,7 +9,16 @@
 
 namespace tcm_icp {
 
+/// What one step minimises over its matches.
+enum class LpFormulation {
+  kPointToPlane,  ///< sum |n . (p' - q)| in the 6 parameters of a twist, by the simplex
+  kPointToPoint,  ///< sum |p' - q|_1 in the same, by the simplex
+  kEntries,       ///< sum |p' - q|_1 in the 12 entries of R and T, by the simplex, and a projection (the paper's)
+  kLeastSquares,  ///< sum (n . (p' - q))^2 in the 6 parameters, without the simplex
+};
+
 struct LpRegistrationOptions {
+  LpFormulation formulation = LpFormulation::kPointToPlane;
   double initial_gate_m = 0;             ///< [m] > 0; correspondences may be this far apart at first
   double final_gate_m = 0;               ///< [m] > 0, <= initial_gate_m; and this far at last
   double gate_shrink = 0.75;             ///< 0 < shrink < 1; factor on the gate from one iteration to the next
@@ -27,6 +36,12 @@ struct LpRegistrationOptions {
 /// @param iterations  what the step did is added to its LP figures
 Termination lp_point_to_plane_step(const std::vector<Correspondence>& matches, const L1FitOptions& options,
                                    Eigen::Isometry3d& T_target_source, LpFigures& figures, double& step_m);
+
+/// A step of any formulation, for comparison; kPointToPlane is the function above.
+/// @note The L1 norm of a vector depends on the axes: kPointToPoint and kEntries are not the same in a turned frame.
+Termination registration_step(LpFormulation formulation, const std::vector<Correspondence>& matches,
+                              const L1FitOptions& options, Eigen::Isometry3d& T_target_source, LpFigures& figures,
+                              double& step_m);
 
 /// Registers `source` to `target` from T_init: correspondences within a gate on distance and normal that shrinks from
 /// initial to final, an L1 step on each set, until steps are small at the final gate.

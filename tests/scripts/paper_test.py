@@ -1,0 +1,108 @@
+"""Checks of scripts/paper, without tcm-icp: what is kept, counted and said."""
+
+import json
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent.parent / "scripts"))
+
+from paper.cells import CellStore, cell_name
+from paper.findings import finding
+from paper.formats import latex, markdown
+from paper.measure import errors_of, iterations_of
+from paper.methods import METHODS
+from paper.plan import CURVES, FULL, TABLE_KINDS, cells
+from paper.scenes import PAPER_SETS, own_sets
+from paper.summary import number, ratios, summarize
+from paper.table_rows import table
+
+
+class Cells(unittest.TestCase):
+    def test_a_finished_cell_comes_back_and_another_does_not(self):
+        with tempfile.TemporaryDirectory() as folder:
+            store = CellStore(folder)
+            store.put({"set": "1", "seed": 1}, {"rms": 2})
+            self.assertEqual(CellStore(folder).get({"set": "1", "seed": 1}), {"rms": 2})
+            self.assertIsNone(store.get({"set": "1", "seed": 2}))
+
+    def test_half_a_file_is_no_measurement(self):
+        with tempfile.TemporaryDirectory() as folder:
+            store = CellStore(folder)
+            store.path({"set": "1"}).write_text('{"spec": {"set": "1"}, "resu')
+            self.assertIsNone(store.get({"set": "1"}))
+
+    def test_names_differ_where_only_a_list_does(self):
+        self.assertNotEqual(cell_name({"a": ["--x"]}), cell_name({"a": ["--y"]}))
+
+
+class Plan(unittest.TestCase):
+    def test_every_cell_stands_once_and_the_tables_come_first(self):
+        plan = cells(PAPER_SETS, PAPER_SETS[1:3], FULL)
+        self.assertEqual(len(plan), len(set(plan)))
+        tables = len(FULL.seeds) * len(PAPER_SETS) * len(TABLE_KINDS) * len(METHODS)
+        self.assertEqual(len(plan), tables + len(FULL.seeds) * 2 * len(CURVES) * len(FULL.levels) * len(METHODS))
+        self.assertTrue(all(c[1] not in CURVES for c in plan[:tables]))
+
+    def test_a_folder_without_truth_is_refused(self):
+        with tempfile.TemporaryDirectory() as folder, self.assertRaisesRegex(ValueError, "truth.json"):
+            own_sets([folder])
+
+
+class Summaries(unittest.TestCase):
+    def test_median_and_range_of_the_runs_that_have_figures(self):
+        s = summarize([{"x": 3, "ok": 1}, {"why": "timeout"}, {"x": 1, "ok": 1}, {"x": 2, "ok": 1}], lambda r: r["x"])
+        self.assertEqual((s.median, s.spread), (2, (1, 3)))
+        self.assertEqual(s.text(), "2 [1, 3] (3 of 4 runs)")
+
+    def test_no_text_is_blank(self):
+        for results in ([], [None], [{"why": "failed"}], [{"x": None, "ok": 1}]):
+            self.assertTrue(summarize(results, lambda r: r["x"]).text())
+
+    def test_ratios_are_taken_seed_by_seed(self):
+        ours, theirs = [{"t": 1}, {"t": 10}], [{"t": 2}, {"t": 40}]
+        self.assertEqual(sorted(ratios(ours, theirs, lambda r: r["t"]).values), [0.25, 0.5])
+        self.assertEqual(ratios([{"t": 1}], [{"why": "timeout"}], lambda r: r["t"]).text(), "timeout")
+
+    def test_numbers_have_no_exponent(self):
+        self.assertEqual([number(x) for x in (0, 0.00123, 12.34, 750545.2)], ["0", "0.00123", "12.3", "750545"])
+
+
+class Reports(unittest.TestCase):
+    def test_iterations_of_both_kinds_of_report(self):
+        merge = {"iterations": {"simplex_pivots": 5, "descent_steps": 2, "annealing_steps": 100, "sum": 107}}
+        ours = {"method": "tcm", "merges": [merge, merge], "adjustment": {"lp": {"pivots": 7}, "steps": 3}}
+        self.assertEqual(iterations_of(ours), {"simplex": 17, "descent": 4, "annealing": 200, "adjustment": 3})
+        self.assertEqual(iterations_of({"method": "icp", "conventional": {"iterations": {"icp": 9, "ransac": 0}}}),
+                         {"icp": 9, "ransac": 0})
+
+    def test_errors_leave_out_what_was_not_measured(self):
+        scans = [{"rmse": 3.0}, {"rmse": 4.0}, {"rmse": None}]
+        errors = errors_of({"scans": scans, "ok": 1, "flagged": 1, "wrong": 1})
+        self.assertAlmostEqual(errors["rms"], 12.5 ** 0.5)
+        self.assertIsNone(errors["c2c_mean"])
+
+
+class Texts(unittest.TestCase):
+    def test_a_table_has_a_text_in_every_place(self):
+        header, rows = table(lambda kind, percent, method: [{"why": "timeout after 60 s"}])
+        for row in rows:
+            self.assertEqual(len(row), len(header))
+            self.assertTrue(all(row))
+
+    def test_markup_survives_what_a_reason_may_hold(self):
+        self.assertIn("a/b", markdown(["x"], [["a|b"]]))
+        self.assertIn(r"20 \% \_", latex(["x"], [["20 % _"]], "c", "l"))
+
+    def test_a_finding_names_the_better_variant_and_a_draw(self):
+        default, other = ("default", 100, 0.010, 1.0), ("other", 100, 0.002, 1.0)
+        self.assertIn("other does better", finding([default, other]))
+        self.assertIn("not beaten", finding([default, ("other", 50, 0.002, 1.0)]))
+        self.assertIn("No variant differs", finding([default, ("other", 100, 0.0101, 1.0)]))
+        self.assertIn("2.0 times as long", finding([default, ("other", 100, 0.01, 2.0)]).replace(" 2 times", " 2.0 times"))
+        self.assertIn("No comparison", finding([("default", None, None, None), other]))
+
+
+if __name__ == "__main__":
+    unittest.main()
