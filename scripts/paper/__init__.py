@@ -1,0 +1,1 @@
+"""What scripts/paper_tables.py and scripts/ablations.py are made of."""

@@ -1,0 +1,58 @@
+"""The ablations: one part of the method replaced at a time, everything else as it is."""
+
+from dataclasses import dataclass
+
+from paper.plan import ISOLATED_PERCENT
+
+
+@dataclass(frozen=True)
+class Variant:
+    name: str
+    arguments: tuple
+
+
+@dataclass(frozen=True)
+class Ablation:
+    key: str
+    title: str
+    variants: tuple  # the first is what the others are compared with
+    common: tuple = ()  # options of all of them
+    kind: str = "none"  # degradation of the scans
+    percent: float = 0
+    from_guess: bool = False  # start from rough initial poses
+
+
+# Without what comes after the simplex: a joint adjustment hides what a placement was like.
+PLACED_ONLY = ("--refinement", "none", "--adjustment.lp-steps", "0", "--adjustment.steps", "0")
+# CGAL's exact solver takes seconds for programs of the usual size.
+SMALL_PROGRAMS = ("--lp.coarse-points", "300", "--lp.fine-points", "300", "--lp.held-out-points", "300")
+
+ABLATIONS = (
+    Ablation("solver", "LP solver, from initial poses, programs of 300 points", (
+        Variant("GLPK (default)", ("--solver", "glpk")), Variant("CGAL", ("--solver", "cgal"))),
+        PLACED_ONLY + SMALL_PROGRAMS, from_guess=True),
+    Ablation("formulation", "What a step minimises; no refinement, no joint adjustment", (
+        Variant("6 parameters, point to plane, L1 (default)", ("--lp.formulation", "plane")),
+        Variant("6 parameters, point to point, L1", ("--lp.formulation", "point")),
+        Variant("12 entries, point to point, L1 (paper)", ("--lp.formulation", "entries")),
+        Variant("6 parameters, point to plane, least squares", ("--lp.formulation", "squares"))), PLACED_ONLY),
+    Ablation("merge-order", "Which scan is merged next; no refinement, no joint adjustment", (
+        Variant("TCM, robust (default)", ("--merge-order", "robust-tcm")),
+        Variant("TCM, paper", ("--merge-order", "paper-tcm")),
+        Variant("largest overlap", ("--merge-order", "overlap")),
+        Variant("order of the files", ("--merge-order", "file")),
+        Variant("random", ("--merge-order", "random"))), PLACED_ONLY),
+    Ablation("outliers", f"Outlier removal, scans with {ISOLATED_PERCENT} % isolated points", (
+        Variant("k-means (default, paper)", ("--outliers", "kmeans")),
+        Variant("distance", ("--outliers", "distance")),
+        Variant("local outlier factor", ("--outliers", "lof")),
+        Variant("none", ("--outliers", "none"))), kind="isolated", percent=ISOLATED_PERCENT),
+    Ablation("refinement", "What follows the simplex", (
+        Variant("descent, annealing, joint adjustment (default)", ()),
+        Variant("no descent", ("--refinement", "annealing")),
+        Variant("no annealing", ("--refinement", "descent")),
+        Variant("neither", ("--refinement", "none")),
+        Variant("no joint programs", ("--adjustment.lp-steps", "0")),
+        Variant("no joint adjustment", ("--adjustment.lp-steps", "0", "--adjustment.steps", "0")),
+        Variant("the simplex alone", PLACED_ONLY))),
+)

@@ -1,0 +1,196 @@
+#!/usr/bin/env python3
+"""Makes the tables and figures of the paper, measured: TCM-ICP (robust and paper profile), ICP, feature based.
+
+  paper_tables.py --out DIR [--quick] [--scenes SCENE...] [--exe TCM_ICP]
+
+Tables 1-4 (time, iterations, RMS, error due to isolated points and feature blurring), bar charts, curves over noise,
+occlusion and removal, and pictures, as CSV, Markdown, LaTeX and PNG. Data sets 1-4 after the paper are simulated: urban,
+street, canopy, street (another seed). --scenes takes your own instead: folders of scans with a truth.json. Full: medians
+over 5 seeds with their range, hours. --quick: small scans, one seed, two levels, below 10 minutes on 2 cores.
+
+It can be interrupted and started again: finished cells (DIR/cells) are not run again, as long as the program is the
+same. Beside the tables: commands.txt (every command line), provenance.json (seeds, versions, commit). A cell without a
+figure says why. Needs numpy and matplotlib, and a tcm-icp built with PCL (-DTCM_ICP_WITH_PCL=ON).
+"""
+
+import argparse
+import os
+import sys
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+try:
+    import numpy  # noqa: F401
+except ImportError:
+    sys.exit("paper_tables.py: numpy is missing: apt install python3-numpy, and run it with /usr/bin/python3")
+try:
+    import matplotlib  # noqa: F401
+except ImportError:
+    sys.exit("paper_tables.py: matplotlib is missing: apt install python3-matplotlib, and run it with /usr/bin/python3")
+
+from paper import charts, pictures
+from paper.cells import CellStore, cell_name
+from paper.formats import write_table
+from paper.measure import initial_poses, measure
+from paper.methods import METHODS, QUICK_SAMPLING, QUICK_SCENES
+from paper.plan import FULL, ISOLATED_PERCENT, ROUGH_POSES, Extent, cells, spec
+from paper.program import Program, Stopped
+from paper.progress import Progress
+from paper.provenance import program_id, write_provenance
+from paper.scenes import PAPER_SETS, SceneMaker, own_sets
+from paper.table_rows import table
+
+BUILD = Path(__file__).resolve().parent.parent / "build" / "release"
+QUICK = Extent("quick", (1,), (20, 40), QUICK_SAMPLING, (*QUICK_SCENES, *ROUGH_POSES), 120)
+PICTURED = "none", 0
+
+
+class Bench:
+    """Runs cells, or finds them finished."""
+
+    def __init__(self, options, extent, data_sets):
+        self.out, self.extent, self.data_sets = options.out, extent, data_sets
+        self.exe = options.exe
+        self.program = Program(options.exe, options.out / "commands.txt", extent.time_limit_s)
+        self.id = program_id(options.exe)
+        self.store = CellStore(options.out / "cells")
+        self.scenes = SceneMaker(self.program, options.out / "scenes", extent.simulate)
+
+    def spec(self, cell):
+        return spec(*cell, self.extent, self.id)
+
+    def kept_result(self, data_set, kind, method):
+        return self.out / "results" / f"set{data_set.key}-{kind}-{method}"
+
+    def run(self, cell):
+        """The cell's result, and whether it was run now."""
+        finished = self.store.get(self.spec(cell))
+        if finished:
+            return finished, False
+        data_set, kind, percent, seed, method = cell
+        scene, why = self.scenes.degraded(data_set, seed, kind, percent)
+        extra = self.extent.register
+        if kind == "init" and not why:
+            guess, why = initial_poses(scene, method)
+            extra += guess or ()
+        if why:
+            result = {"why": why}
+        else:
+            # The first seed's results are what the pictures show.
+            keep = seed == self.extent.seeds[0] and kind in ("none", "isolated")
+            result = measure(self.program, scene, method, seed, self.out / "work" / cell_name(self.spec(cell)),
+                             extra, self.kept_result(data_set, kind, method) if keep else None,
+                             self.scenes.scene(data_set, seed)[0])
+        self.store.put(self.spec(cell), result)
+        return result, True
+
+    def results_of(self, data_set, kind, percent, method):
+        return [self.store.get(self.spec((data_set, kind, percent, seed, method))) for seed in self.extent.seeds]
+
+    def picture_source(self, data_set, kind, percent, method):
+        """Folder of the first seed's result, or why there is none."""
+        folder = self.kept_result(data_set, kind, method)
+        result = self.results_of(data_set, kind, percent, method)[0] or {"why": "not run"}
+        return folder if folder.exists() and "why" not in result else result.get("why", "its files were not kept")
+
+
+def run_cells(bench, todo, jobs):
+    progress = Progress(len(todo))
+
+    def one(cell):
+        result, was_run = bench.run(cell)
+        data_set, kind, percent, seed, method = cell
+        outcome = result.get("why") or f"{result['ok']}/{result['scans']} right, {result['cpu_s']:.1f} s"
+        progress.step(f"set {data_set.key} {kind} {percent} seed {seed} {method}: {outcome}", was_run)
+
+    with ThreadPoolExecutor(jobs) as pool:
+        try:
+            list(pool.map(one, todo))
+        except (KeyboardInterrupt, Stopped):
+            bench.program.stop()
+            pool.shutdown(cancel_futures=True)
+            sys.exit("\ninterrupted; the same command goes on where it was")
+
+
+def note_of(extent):
+    if extent.name == "quick":
+        return f"Quick run: small scans (4 a scene, a return in 0.3 m), {len(extent.seeds)} seed, {len(extent.levels)} levels of degradation."
+    return f"Full run: medians over {len(extent.seeds)} seeds, [least, largest]."
+
+
+def write_tables(bench):
+    parts = [f"# Tables and figures\n\n{note_of(bench.extent)} RMS and distances are of the scans a method placed; the "
+             "rows of right and wrong scans say how many those are. They are taken over the points of the undamaged scans.\n"]
+    for data_set in bench.data_sets:
+        header, rows = table(lambda kind, percent, m, d=data_set: bench.results_of(d, kind, percent, m))
+        write_table(bench.out, f"table-set{data_set.key}", header, rows,
+                    f"Performance of registration methods on {data_set.name}", note_of(bench.extent))
+        parts.append("## " + (bench.out / f"table-set{data_set.key}.md").read_text(encoding="utf-8"))
+    (bench.out / "tables.md").write_text("\n".join(parts), encoding="utf-8")
+
+
+def draw(bench, curve_sets):
+    note = note_of(bench.extent)
+    charts.bar_charts(bench.out, bench.data_sets, bench.results_of, note)
+    for data_set in curve_sets:
+        charts.curves(bench.out, data_set, bench.extent.levels, bench.results_of, note)
+    first, seed = bench.data_sets[0], bench.extent.seeds[0]
+    rows, missing = [], []
+    for data_set in bench.data_sets:
+        scene, why = bench.scenes.scene(data_set, seed)
+        if why:
+            missing.append(f"{data_set.name}: {why}")
+            continue
+        rows.append((data_set.name, scene, {m.key: bench.picture_source(data_set, *PICTURED, m.key) for m in METHODS}))
+        if data_set == first:
+            pictures.before_registration(scene, bench.out / "before_registration.png",
+                                         f"{data_set.name}: the scans as they lie in their files")
+        result = bench.picture_source(data_set, *PICTURED, "robust")
+        if isinstance(result, Path):
+            pictures.correspondence_graph(scene, result, bench.out / f"graph-set{data_set.key}.png",
+                                          f"Correspondence graph of {data_set.name}")
+    if rows:
+        pictures.gallery(rows, bench.out / "gallery.png")
+    scene, why = bench.scenes.degraded(first, seed, "isolated", ISOLATED_PERCENT)
+    result = bench.picture_source(first, "isolated", ISOLATED_PERCENT, "robust")
+    if why or not isinstance(result, Path):
+        missing.append(f"outliers.png: {why or result}")
+    else:
+        pictures.outliers(scene, result, bench.out / "outliers.png",
+                          f"{first.name} with {ISOLATED_PERCENT} % isolated points: outlier removal of one scan, from the side")
+    for line in missing:
+        print("not drawn: " + line, file=sys.stderr)
+
+
+def main():
+    ap = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    ap.add_argument("--out", type=Path, required=True)
+    ap.add_argument("--quick", action="store_true", help="small scans, one seed, two levels")
+    ap.add_argument("--scenes", nargs="+", help="your own scenes in place of the simulated ones")
+    ap.add_argument("--exe", type=Path, default=BUILD / "app" / "tcm-icp")
+    ap.add_argument("--seeds", type=int, nargs="+", help="in place of 1 to 5, or 1 with --quick")
+    ap.add_argument("--jobs", type=int, help="runs at a time: 1, or 2 with --quick; more than the idle cores disturb the times")
+    ap.add_argument("--draw-only", action="store_true", help="tables and figures of the cells that are there")
+    options = ap.parse_args()
+    if not os.access(options.exe, os.X_OK):
+        sys.exit(f"paper_tables.py: {options.exe} is not there: cmake --preset release && cmake --build --preset release")
+    extent = QUICK if options.quick else FULL
+    if options.seeds:
+        extent = Extent(extent.name, tuple(options.seeds), *list(vars(extent).values())[2:])
+    try:
+        data_sets = own_sets(options.scenes) if options.scenes else list(PAPER_SETS)
+    except ValueError as e:
+        sys.exit(f"paper_tables.py: {e}")
+    options.out.mkdir(parents=True, exist_ok=True)
+    curve_sets = data_sets if options.scenes else [d for d in data_sets if d.key in ("2", "3")]
+    bench = Bench(options, extent, data_sets)
+    write_provenance(options.out, options.exe, extent)
+    if not options.draw_only:
+        run_cells(bench, cells(data_sets, curve_sets, extent), options.jobs or (2 if options.quick else 1))
+    write_tables(bench)
+    draw(bench, curve_sets)
+    print((options.out / "tables.md").read_text(encoding="utf-8"))
+
+
+if __name__ == "__main__":
+    main()
