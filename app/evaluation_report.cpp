@@ -96,12 +96,14 @@ Json distance_json(const DirectedDistance& d) {
 Json to_json(const Evaluation& e) {
   const SceneScore& score = e.score;
   Json scans = Json::array(), pairs = Json::array();
-  for (const auto& s : score.scans)
+  for (const auto& s : score.scans) {
     scans.push_back(error_json(s.error, {{"file", s.file}, {"verdict", to_string(s.verdict)}}));
-  for (const auto& p : score.pairs)
-    pairs.push_back(error_json(
-        p.error,
-        {{"a", e.truth.scans[p.a].file}, {"b", e.truth.scans[p.b].file}, {"overlap", p.overlap}, {"ok", p.is_ok}}));
+  }
+  for (const auto& p : score.pairs) {
+    const Json who{
+        {"a", e.truth.scans[p.a].file}, {"b", e.truth.scans[p.b].file}, {"overlap", p.overlap}, {"ok", p.is_ok}};
+    pairs.push_back(error_json(p.error, who));
+  }
   return {{"scans", scans},
           {"pair_list", pairs},
           {"reference", score.scans[score.reference].file},

@@ -29,7 +29,7 @@ class Occlusion {
 
   void hide_box(std::size_t number, Rng& rng) {
     const Points places = visible_places();
-    const Vector3d centre = places[uniform_index(rng, places.size())];
+    const Vector3d& centre = places[uniform_index(rng, places.size())];
     hide_least(number, [&](const Vector3d& p) { return (p - centre).cwiseAbs().maxCoeff(); });
   }
 

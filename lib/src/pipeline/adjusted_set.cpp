@@ -74,7 +74,7 @@ std::size_t best_reference(const AdjustedSet& set) {
   return adjacency[best].size() > adjacency[set.reference].size() ? best : set.reference;
 }
 
-void move_reference(std::size_t to, const PoseGraph& graph, AdjustedSet& set) {
+void move_reference(std::size_t to, const std::vector<PreparedScan>& scans, const PoseGraph& graph, AdjustedSet& set) {
   const Eigen::Isometry3d T_new_old = set.T_reference_scan[to].inverse();
   for (Eigen::Isometry3d& T : set.T_reference_scan) T = T_new_old * T;
   set.T_reference_scan[to].setIdentity();
@@ -82,7 +82,9 @@ void move_reference(std::size_t to, const PoseGraph& graph, AdjustedSet& set) {
   set.reasons[to].clear();
   AlignmentEvidence& evidence = set.evidence[set.reference].emplace();
   evidence.runner_up = 0;  // no fit of its own whose neighbourhood could be explored
-  if (!graph.links().empty()) evidence.link_log_odds = 0;
+  const StartPose support = graph.support(set.reference, set.placed, set.T_reference_scan, scans[set.reference].moments,
+                                          kSameLinkPose * scans[set.reference].pyramid.level(0).voxel_size_m);
+  if (support.log_odds >= kMinLinkLogOdds) evidence.link_log_odds = support.log_odds;  // else by a guess
   set.reference = to;
 }
 
@@ -111,7 +113,7 @@ void adjust_and_verify(const std::vector<PreparedScan>& scans, const PoseGraph& 
     set.adjustment = adjust_poses(scans, set.pairs, set.reference, resolutions, options, context, set.T_reference_scan);
     std::optional<std::size_t> worst = verify_members(scans, graph, context, set);
     if (const std::size_t best = best_reference(set); !worst && options.reference.empty() && best != set.reference) {
-      move_reference(best, graph, set);
+      move_reference(best, scans, graph, set);
       worst = verify_members(scans, graph, context, set);  // the old reference had not been judged
     }
     if (!worst) return;

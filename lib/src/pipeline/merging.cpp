@@ -1,6 +1,7 @@
 #include "merging.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "placement.hpp"
 #include "tcm_icp/core/parallel.hpp"
@@ -29,6 +30,7 @@ Merging::Merging(const MergeInput& input, std::size_t reference, std::vector<boo
       placed_(input.scans.size(), false),
       T_reference_scan_(input.scans.size(), Eigen::Isometry3d::Identity()),
       tried_with_(input.scans.size(), 0),
+      tried_guess_with_(input.scans.size(), 0),
       attempts_(input.scans.size(), 0),
       merged_(input.scans[reference].pyramid.level(0).voxel_size_m),
       target_((merged_.add(input.scans[reference].pyramid.level(0).cloud, Eigen::Isometry3d::Identity()),
@@ -40,16 +42,19 @@ Merging::Merging(const MergeInput& input, std::size_t reference, std::vector<boo
 void Merging::run(std::vector<MergeRecord>& records) {
   bool last_round = false;
   while (true) {
-    // Weaker links are worth a trial when no other is left: S may show what a pair could not.
-    std::vector<Choice> open = choices(false);
-    if (open.empty()) open = choices(true);
+    // Weaker links are worth a trial when no other is left: S may show what a pair could not. Guesses come last: nothing
+    // speaks for them but that a fit from there looks right.
+    std::vector<Choice> open;
+    for (const Source source : {Source::kStrongLinks, Source::kLinks, Source::kGuesses}) {
+      if (open.empty()) open = choices(source);
+    }
     if (open.empty()) {
       // Guessed scans have one more trial at the end, since annealing draws other numbers each time.
       const bool any_guess = std::any_of(in_.T_init.begin(), in_.T_init.end(), [](const auto& T) { return bool(T); });
       if (last_round || in_.options.profile == Profile::kPaper || num_merged_ == 1 || !any_guess) break;
       last_round = true;
       for (std::size_t i = 0; i < tried_with_.size(); ++i) {
-        if (in_.T_init[i]) tried_with_[i] = 0;
+        if (in_.T_init[i]) tried_guess_with_[i] = 0;
       }
       continue;
     }
@@ -77,23 +82,26 @@ Eigen::Isometry3d Merging::guess(std::size_t scan) const {
          in_.T_init[scan].value_or(Eigen::Isometry3d::Identity());
 }
 
-std::vector<Merging::Choice> Merging::choices(bool with_weak_links) {
+bool Merging::may_guess(std::size_t scan) const {
+  return in_.options.profile == Profile::kPaper || (in_.T_init[scan] && in_.T_init[reference_]);
+}
+
+std::vector<Merging::Choice> Merging::choices(Source source) {
   std::vector<Choice> out;
-  const bool paper = in_.options.profile == Profile::kPaper;
   for (std::size_t j = 0; j < in_.scans.size(); ++j) {
     if (!wanted_[j] || placed_[j]) continue;
     if (std::min(in_.scans[j].tcm_points.size(), in_.scans[reference_].tcm_points.size()) < kMinPoints) continue;
-    if (paper || (in_.T_init[j] && in_.T_init[reference_])) {
-      // Its guess, tried again once S has grown.
-      if (tried_with_[j] < num_merged_) out.push_back({j, {{guess(j), 0, 0}}});
+    if (source == Source::kGuesses) {
+      // Tried again once S has grown.
+      if (may_guess(j) && tried_guess_with_[j] < num_merged_) out.push_back({j, {{guess(j), 0, 0}}, true});
       continue;
     }
     std::vector<StartPose> starts =
         in_.graph.start_poses(j, placed_, T_reference_scan_, in_.scans[j].moments, same_m());
-    const double least = with_weak_links ? kMinLinkLogOdds : kStrongLogOdds;
+    const double least = source == Source::kLinks ? kMinLinkLogOdds : kStrongLogOdds;
     if (starts.empty() || starts.front().log_odds < least) continue;
     const std::size_t num_hypotheses = in_.graph.num_hypotheses(j, placed_);
-    if (tried_with_[j] < num_hypotheses) out.push_back({j, std::move(starts)});
+    if (tried_with_[j] < num_hypotheses) out.push_back({j, std::move(starts), false});
   }
   return out;
 }
@@ -137,11 +145,14 @@ std::size_t Merging::choose_next(const std::vector<Choice>& choices, const std::
   return choices[best].scan;
 }
 
-// The fit, or a better pose nearby, may have left what the links lead to.
-void Merging::ask_links(std::size_t scan, const Eigen::Isometry3d& T, MergeRecord& record) {
+// The fit, or a better pose nearby, may have left what the links lead to. Links that say little of a guess are not held
+// against it; those that clearly lead elsewhere are.
+void Merging::ask_links(const Choice& choice, const Eigen::Isometry3d& T, MergeRecord& record) {
   if (!record.evidence) return;
+  const std::size_t scan = choice.scan;
   T_reference_scan_[scan] = T;
   const StartPose support = in_.graph.support(scan, placed_, T_reference_scan_, in_.scans[scan].moments, same_m());
+  if (choice.by_guess && std::abs(support.log_odds) < kMinLinkLogOdds) return;
   record.evidence->link_log_odds = support.log_odds;
   record.evidence->num_links = support.num_links;
   const Verdict verdict = judge(*record.evidence);
@@ -151,7 +162,7 @@ void Merging::ask_links(std::size_t scan, const Eigen::Isometry3d& T, MergeRecor
 
 void Merging::merge(const Choice& choice, const TcmTerms& terms, std::vector<MergeRecord>& records) {
   const std::size_t q = choice.scan;
-  const bool paper = in_.options.profile == Profile::kPaper, guessed = in_.T_init[q] && in_.T_init[reference_];
+  const bool paper = in_.options.profile == Profile::kPaper;
   MergeRecord record;
   record.scan = q;
   record.attempt = ++attempts_[q];
@@ -161,13 +172,16 @@ void Merging::merge(const Choice& choice, const TcmTerms& terms, std::vector<Mer
   Eigen::Isometry3d T;
   if (paper) {
     T = place_scan_as_printed(in_.scans[q], target_, T_first, in_.options, rng, record);
-  } else if (guessed) {
-    T = place_scan(in_.scans[q], target_, T_first, in_.options, rng, record);
   } else {
-    T = place_linked_scan(in_.scans[q], target_, choice.starts, in_.options, rng, record);
-    ask_links(q, T, record);
+    T = choice.by_guess ? place_scan(in_.scans[q], target_, T_first, in_.options, rng, record)
+                        : place_linked_scan(in_.scans[q], target_, choice.starts, in_.options, rng, record);
+    ask_links(choice, T, record);
   }
-  tried_with_[q] = paper || guessed ? num_merged_ : in_.graph.num_hypotheses(q, placed_);
+  if (choice.by_guess) {
+    tried_guess_with_[q] = num_merged_;
+  } else {
+    tried_with_[q] = in_.graph.num_hypotheses(q, placed_);
+  }
   if (record.accepted) {
     T_reference_scan_[q] = T;
     placed_[q] = true;

@@ -47,13 +47,16 @@ class Merging {
   struct Choice {
     std::size_t scan;
     std::vector<StartPose> starts;
+    bool by_guess;
   };
+  enum class Source { kStrongLinks, kLinks, kGuesses };
 
-  std::vector<Choice> choices(bool with_weak_links);
+  std::vector<Choice> choices(Source source);
+  bool may_guess(std::size_t scan) const;
   std::size_t choose_next(const std::vector<Choice>& choices, const std::vector<MergeCandidate>& candidates);
   void compute_tcm(const std::vector<Choice>& choices, std::vector<MergeCandidate>& candidates);
   void merge(const Choice& choice, const TcmTerms& terms, std::vector<MergeRecord>& records);
-  void ask_links(std::size_t scan, const Eigen::Isometry3d& T, MergeRecord& record);
+  void ask_links(const Choice& choice, const Eigen::Isometry3d& T, MergeRecord& record);
   Eigen::Isometry3d guess(std::size_t scan) const;
   double same_m() const { return kSameLinkPose * target_.level(0).voxel_size_m; }
 
@@ -62,7 +65,8 @@ class Merging {
   std::vector<bool> wanted_;
   std::vector<bool> placed_;
   std::vector<Eigen::Isometry3d> T_reference_scan_;
-  std::vector<std::size_t> tried_with_;  ///< what a scan had to start from at its last attempt: neighbours or size of S
+  std::vector<std::size_t> tried_with_;        ///< hypotheses that a scan had at its last attempt by links
+  std::vector<std::size_t> tried_guess_with_;  ///< size of S at its last attempt from its guess
   std::vector<int> attempts_;
   std::size_t num_merged_ = 1;
   std::size_t num_choices_ = 0;  ///< made at random

@@ -57,17 +57,17 @@ class Run {
     scans_ = prepare_scans(sampled_, resolutions_, options_.placement, context_);
   }
 
-  // Which scans lie near which: by their guesses, or by links found without any.
+  // Which scans lie near which: by links found without any guess, and by the guesses where all scans have one. Links come
+  // first in merging: a guess alone does not tell one bay of a hall from the next.
   void find_links() {
     const bool all_guessed = std::all_of(T_init_.begin(), T_init_.end(), [](const auto& T) { return bool(T); });
     graph_ = PoseGraph(scans_.size());
-    if (all_guessed) {
-      result_.graph = compare_scans(scans_, values_of(T_init_), options_, context_);
-    } else {
+    if (!paper()) {
       pair_search_.emplace(scans_, files_, options_, context_);
       pair_search_->run(graph_);
-      result_.graph = graph_.correspondence_graph(std::vector<bool>(scans_.size(), true));
     }
+    result_.graph = all_guessed ? compare_scans(scans_, values_of(T_init_), options_, context_)
+                                : graph_.correspondence_graph(std::vector<bool>(scans_.size(), true));
     if (options_.reference.empty()) result_.reference = result_.graph.reference;
     result_.graph.reference = result_.reference;
   }
