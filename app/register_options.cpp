@@ -143,6 +143,8 @@ po::options_description configurable(RegisterOptions& o, Choices& c) {
   add_comparison_options(o, c, main);
   main.add_options()("reference", value(p.reference),
                      "file of the reference scan; empty: the correspondence graph chooses")(
+      "level", po::bool_switch(&p.level),
+      "z points up in every scan, within 10 degrees: links are searched upright only")(
       "merge-order", value(c.merge_order),
       "which scan is merged next: tcm (as the profile measures it), paper-tcm, robust-tcm, overlap, file or random")(
       "solver", value(c.solver), "simplex solver: glpk or cgal (exact, slow, for comparison)");
@@ -313,6 +315,7 @@ void print_register_config(const RegisterOptions& options, std::ostream& out) {
     const boost::any& v = map[option->long_name()].value();
     out << option->long_name() << " = ";
     if (const auto* text = boost::any_cast<std::string>(&v)) out << *text;
+    if (const auto* yes = boost::any_cast<bool>(&v)) out << (*yes ? "true" : "false");
     if (const auto* number = boost::any_cast<double>(&v)) out << *number;
     if (const auto* number = boost::any_cast<int>(&v)) out << *number;
     if (const auto* number = boost::any_cast<std::uint64_t>(&v)) out << *number;

@@ -58,6 +58,17 @@ TEST_F(RegisterUnguided, PlacesEveryScanOfTheTown) {
   }
 }
 
+TEST_F(RegisterUnguided, LevelledScansUpright) {
+  const RunResult result = register_to("result", town_scans() + kSmall + Words{"--level"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  expect_all_right(poses("result"));
+  const auto report = read_json(folder() / "result/report.json");
+  EXPECT_EQ(report["options"]["level"], true);
+  for (const auto& h : report["hypotheses"]) {
+    EXPECT_GT(h["pose_of_b_in_a"][2][2].get<double>(), 0.9) << "no link is upside down";
+  }
+}
+
 TEST_F(RegisterUnguided, InAnyOrderOfTheFiles) {
   const Words reference = Words{"--reference", "002.ply"} + kSmall;
   ASSERT_EQ(register_to("forwards", town_scans() + reference).exit_code, 0);

@@ -78,7 +78,8 @@ TEST_F(Usage, AWholeHelpThatCannotBeWrittenIsAnError) {
 }
 
 TEST_F(Usage, PrintedOptionsGiveTheSameOptions) {
-  const Words options{"--seed", "7", "--solver", "cgal", "--outliers.threshold", "0.1", "--profile", "paper"};
+  const Words options{"--seed", "7",         "--solver", "cgal",   "--outliers.threshold",
+                      "0.1",    "--profile", "paper",    "--level"};
   const std::string printed = config(options);
   EXPECT_NE(printed, config({}));
   folder_.write("options.ini", printed);

@@ -42,8 +42,8 @@ Merging::Merging(const MergeInput& input, std::size_t reference, std::vector<boo
 void Merging::run(std::vector<MergeRecord>& records) {
   bool last_round = false;
   while (true) {
-    // Weaker links are worth a trial when no other is left: S may show what a pair could not. Guesses come last: nothing
-    // speaks for them but that a fit from there looks right.
+    // Weaker links are worth a trial when no other is left: S may show what a pair could not. Guesses come last:
+    // nothing speaks for them but that a fit from there looks right.
     std::vector<Choice> open;
     for (const Source source : {Source::kStrongLinks, Source::kLinks, Source::kGuesses}) {
       if (open.empty()) open = choices(source);

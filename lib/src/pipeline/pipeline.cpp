@@ -57,8 +57,8 @@ class Run {
     scans_ = prepare_scans(sampled_, resolutions_, options_.placement, context_);
   }
 
-  // Which scans lie near which: by links found without any guess, and by the guesses where all scans have one. Links come
-  // first in merging: a guess alone does not tell one bay of a hall from the next.
+  // Which scans lie near which: by links found without any guess, and by the guesses where all scans have one. Links
+  // come first in merging: a guess alone does not tell one bay of a hall from the next.
   void find_links() {
     const bool all_guessed = std::all_of(T_init_.begin(), T_init_.end(), [](const auto& T) { return bool(T); });
     graph_ = PoseGraph(scans_.size());

@@ -88,6 +88,7 @@ Json options_json(const PipelineOptions& o, const RunContext& context) {
           {"merge_order", name_of(o.merge_order)},
           {"reference", o.reference},
           {"graph_threshold", o.graph_threshold},
+          {"level", o.level},
           {"outliers", name_of(o.outliers.method)},
           {"max_working_points", o.sampling.max_working_points},
           {"coarse_voxels", o.sampling.coarse_voxels},
