@@ -59,6 +59,60 @@ TEST_F(PoseGraphTest, LinksThatLeadToOnePlaceAddUp) {
   EXPECT_TRUE(testing::is_pose_near(of_likeliest, poses[0].T_reference_scan, 1e-9, 1e-9));
 }
 
+// Four scans, all pairs linked. One wrong link contradicts two loops, two of the others'.
+TEST_F(PoseGraphTest, LoopsTellALinkThatContradictsTheOthers) {
+  const std::vector<PointMoments> points(5, PointMoments(points_));
+  for (std::size_t a = 0; a < 4; ++a) {
+    for (std::size_t b = a + 1; b < 4; ++b) add(a, b, {hypothesis(a, b, 8, a == 0 && b == 1 ? 9 : 0)});
+  }
+  add(3, 4, {hypothesis(3, 4, 8)});
+  add(2, 4, {hypothesis(2, 4, 2)});
+  graph_.weigh_by_loops(points, kSame_m);
+  const auto trust = [&](std::size_t a, std::size_t b) { return graph_.links().at({a, b}).trust; };
+  EXPECT_EQ(trust(0, 1), 0) << "none of its two loops closes";
+  // Two of the set's four loops close, (2 + 2) / (2 + 4) with the prior: what stands in where a link has few.
+  const auto share = [](double closed, double all) { return (closed + 2 * 4 / 6.0) / (all + 2); };
+  EXPECT_NEAR(trust(0, 2), (share(1, 1) - 0.5) / 0.4, 1e-12) << "its loop with 0 to 1 is not held against it";
+  EXPECT_NEAR(trust(2, 3), (share(2, 2) - 0.5) / 0.4, 1e-12);
+  EXPECT_NEAR(trust(3, 4), (share(0, 0) - 0.5) / 0.4, 1e-12) << "no loop of clear links";
+  EXPECT_DOUBLE_EQ(starts(1, {true, false, false, false, false})[0].log_odds, 0);
+}
+
+TEST_F(PoseGraphTest, LoopsThatCloseLeaveAllAsItWas) {
+  const std::vector<PointMoments> points(5, PointMoments(points_));
+  for (std::size_t a = 0; a < 5; ++a) {
+    for (std::size_t b = a + 1; b < 5; ++b) add(a, b, {hypothesis(a, b, 4, 0.3 * kSame_m)});
+  }
+  graph_.weigh_by_loops(points, kSame_m);
+  for (const auto& [pair, link] : graph_.links()) EXPECT_EQ(link.trust, 1);
+}
+
+TEST_F(PoseGraphTest, WithoutLoopsLinksStandByThemselves) {
+  const std::vector<PointMoments> points(5, PointMoments(points_));
+  add(0, 1, {hypothesis(0, 1, 4)});
+  add(1, 2, {hypothesis(1, 2, 4, 9)});
+  add(0, 2, {hypothesis(0, 2, 2)});
+  graph_.weigh_by_loops(points, kSame_m);
+  for (const auto& [pair, link] : graph_.links()) EXPECT_EQ(link.trust, 1) << "0 and 2 have no clear link";
+}
+
+// In a place that repeats itself links err alike: what speaks against a pose stays, what speaks for it goes.
+TEST_F(PoseGraphTest, WhereNoLoopClosesNothingIsBelieved) {
+  const std::vector<PointMoments> points(5, PointMoments(points_));
+  for (std::size_t a = 0; a < 5; ++a) {
+    for (std::size_t b = a + 1; b < 5; ++b) {
+      const double off_m = 9.0 * static_cast<double>(1 + a * 5 + b);
+      add(a, b, {hypothesis(a, b, 9, off_m), hypothesis(a, b, -2, 0)});
+    }
+  }
+  graph_.weigh_by_loops(points, kSame_m);
+  for (const auto& [pair, link] : graph_.links()) {
+    EXPECT_EQ(link.trust, 0);
+    EXPECT_EQ(link.log_odds(link.hypotheses[0]), 0);
+    EXPECT_EQ(link.log_odds(link.hypotheses[1]), -2);
+  }
+}
+
 // The same link serves both of its scans: T_a_b one way, its inverse the other.
 TEST_F(PoseGraphTest, EitherScanOfALinkCanBePlacedByTheOther) {
   add(1, 3, {hypothesis(1, 3, 4)});

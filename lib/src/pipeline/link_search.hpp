@@ -31,7 +31,10 @@ struct LinkHypothesis {
 struct CandidateLink {
   std::size_t a = 0, b = 0;
   std::vector<LinkHypothesis> hypotheses;
+  double trust = 1;  ///< 0..1; how far loops bear out what the pair says of itself (PoseGraph::weigh_by_loops)
 
+  /// Log-odds of a hypothesis: by the pair alone, less where loops do not bear out what speaks for it.
+  double log_odds(const LinkHypothesis& h) const { return h.log_odds > 0 ? trust * h.log_odds : h.log_odds; }
   /// Scores all hypotheses anew, against one another too, and puts the likeliest first.
   /// @param points_b  of scan b, to tell poses apart by
   void rank(const PointMoments& points_b, double voxel_m);

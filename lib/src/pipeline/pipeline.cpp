@@ -6,6 +6,7 @@
 
 #include "adjusted_set.hpp"
 #include "group_joining.hpp"
+#include "link_score.hpp"
 #include "link_verification.hpp"
 #include "merging.hpp"
 #include "pair_search.hpp"
@@ -65,11 +66,18 @@ class Run {
     if (!paper()) {
       pair_search_.emplace(scans_, files_, options_, context_);
       pair_search_->run(graph_);
+      weigh_links();
     }
     result_.graph = all_guessed ? compare_scans(scans_, values_of(T_init_), options_, context_)
                                 : graph_.correspondence_graph(std::vector<bool>(scans_.size(), true));
     if (options_.reference.empty()) result_.reference = result_.graph.reference;
     result_.graph.reference = result_.reference;
+  }
+
+  void weigh_links() {
+    std::vector<PointMoments> moments;
+    for (const auto& scan : scans_) moments.push_back(scan.moments);
+    graph_.weigh_by_loops(moments, kSameLinkPose * resolutions_.coarse_m);
   }
 
   // The reference's component first; then what is left, as long as some of it holds together.
@@ -145,10 +153,20 @@ class Run {
     const std::size_t first = result_.merges.size();
     merging.run(result_.merges);
     // Scans that found no place may have links that were not tried yet.
-    while (pair_search_ && pair_search_->extend(graph_, merging.unplaced())) merging.run(result_.merges);
+    while (pair_search_ && pair_search_->extend(graph_, merging.unplaced())) {
+      weigh_links();
+      merging.run(result_.merges);
+    }
     AdjustedSet set = set_of_one(reference, scans_.size());
     set.placed = merging.placed();
     set.T_reference_scan = merging.T_reference_scan();
+    for (const auto& [pair, link] : graph_.links()) {
+      if (link.trust > 0 || link.hypotheses.empty() || link.hypotheses.front().log_odds < kClearLogOdds) continue;
+      for (const std::size_t i : {pair.first, pair.second}) {
+        set.reasons[i] =
+            "its links and those of others contradict one another around loops: the place may repeat itself";
+      }
+    }
     for (std::size_t k = first; k < result_.merges.size(); ++k) {
       set.evidence[result_.merges[k].scan] = result_.merges[k].evidence;
       set.reasons[result_.merges[k].scan] = result_.merges[k].reason;
@@ -234,7 +252,7 @@ class Run {
       const auto both = std::find_if(components_.begin(), components_.end(),
                                      [a = a, b = b](const AdjustedSet& set) { return set.placed[a] && set.placed[b]; });
       for (const auto& h : link.hypotheses) {
-        LinkHypothesisRecord record{a, b, {}, h.candidate, h.evidence, h.log_odds, "open"};
+        LinkHypothesisRecord record{a, b, {}, h.candidate, h.evidence, h.log_odds, link.trust, "open"};
         record.T_a_b =
             Eigen::Translation3d(sampled_[a].scan.origin) * h.T_a_b * Eigen::Translation3d(-sampled_[b].scan.origin);
         if (both != components_.end()) {

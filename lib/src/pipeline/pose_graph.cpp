@@ -26,7 +26,7 @@ std::vector<StartPose> PoseGraph::start_poses(std::size_t scan, const std::vecto
   std::vector<std::pair<double, Eigen::Isometry3d>> singles;
   for_each_link(scan, placed, [&](std::size_t other, const CandidateLink& link) {
     for (const auto& h : link.hypotheses)
-      singles.emplace_back(-h.log_odds, T_reference_scan[other] * link.T_other(scan, h));
+      singles.emplace_back(-link.log_odds(h), T_reference_scan[other] * link.T_other(scan, h));
   });
   std::stable_sort(singles.begin(), singles.end(), [](const auto& x, const auto& y) { return x.first < y.first; });
   std::vector<StartPose> poses;  // each as its likeliest link has it
@@ -56,7 +56,7 @@ StartPose PoseGraph::support(std::size_t scan, const std::vector<bool>& placed,
       const bool same = rms_displacement(out.T_reference_scan.inverse() * T, points) < same_m;
       leads_here = leads_here || same;
       double& side = same ? here : elsewhere;
-      side = std::max(side, h.log_odds);
+      side = std::max(side, link.log_odds(h));
     }
     out.log_odds += here - std::max(0.0, elsewhere - std::max(here, kDoubtLogOdds));
     out.num_links += leads_here ? 1 : 0;
@@ -92,8 +92,8 @@ CorrespondenceGraph PoseGraph::correspondence_graph(const std::vector<bool>& wan
   Eigen::MatrixXd measure = Eigen::MatrixXd::Ones(n, n);
   for (const auto& [pair, link] : links_) {
     const auto [a, b] = pair;
-    if (!wanted[a] || !wanted[b] || link.hypotheses.empty() || link.hypotheses.front().log_odds <= 0) continue;
-    const double probability = 1 / (1 + std::exp(-link.hypotheses.front().log_odds));
+    if (!wanted[a] || !wanted[b] || link.hypotheses.empty() || link.log_odds(link.hypotheses.front()) <= 0) continue;
+    const double probability = 1 / (1 + std::exp(-link.log_odds(link.hypotheses.front())));
     const auto row = static_cast<Eigen::Index>(a), column = static_cast<Eigen::Index>(b);
     measure(row, column) = measure(column, row) = 1 - probability;
   }

@@ -165,6 +165,7 @@ std::string report_json(const PipelineResult& result, const PipelineOptions& opt
          {"coarse_score", number(h.candidate.score)},
          {"coarse_margin", number(h.candidate.margin)},
          {"log_odds", h.log_odds},
+         {"trust", h.trust},
          {"fate", h.fate},
          {"evidence", to_json(h.evidence)}});
   }
