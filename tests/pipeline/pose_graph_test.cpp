@@ -72,9 +72,11 @@ TEST_F(PoseGraphTest, LoopsTellALinkThatContradictsTheOthers) {
   EXPECT_EQ(trust(0, 1), 0) << "none of its two loops closes";
   // Two of the set's four loops close, (2 + 2) / (2 + 4) with the prior: what stands in where a link has few.
   const auto share = [](double closed, double all) { return (closed + 2 * 4 / 6.0) / (all + 2); };
-  EXPECT_NEAR(trust(0, 2), (share(1, 1) - 0.5) / 0.4, 1e-12) << "its loop with 0 to 1 is not held against it";
-  EXPECT_NEAR(trust(2, 3), (share(2, 2) - 0.5) / 0.4, 1e-12);
-  EXPECT_NEAR(trust(3, 4), (share(0, 0) - 0.5) / 0.4, 1e-12) << "no loop of clear links";
+  const auto trust_of = [](double s) { return (s - 0.5) / 0.4; };
+  const double of_the_set = trust_of(4 / 6.0);
+  EXPECT_NEAR(trust(0, 2), of_the_set * trust_of(share(1, 1)), 1e-12) << "its loop with 0 to 1 is not held against it";
+  EXPECT_NEAR(trust(2, 3), of_the_set * trust_of(share(2, 2)), 1e-12);
+  EXPECT_NEAR(trust(3, 4), of_the_set * trust_of(share(0, 0)), 1e-12) << "no loop of clear links";
   EXPECT_DOUBLE_EQ(starts(1, {true, false, false, false, false})[0].log_odds, 0);
 }
 

@@ -25,6 +25,8 @@ struct Tally {
   double share(double usual) const { return (closed + kPriorLoops * usual) / (all + kPriorLoops); }
 };
 
+double trust_of(double share) { return std::clamp((share - kNoTrust) / (kFullTrust - kNoTrust), 0.0, 1.0); }
+
 struct Loop {
   std::array<Pair, 3> links;
   bool closed;
@@ -76,9 +78,9 @@ void PoseGraph::weigh_by_loops(const std::vector<PointMoments>& points, double s
     dropped.insert(pair);
     std::erase_if(loops, [&](const Loop& l) { return std::count(l.links.begin(), l.links.end(), pair) > 0; });
   }
+  // Some loops of a place that repeats itself close on the wrong pose: no link is trusted more than the set.
   for (auto& [pair, link] : links_) {
-    const double share = tallies[pair].share(usual);
-    link.trust = dropped.contains(pair) ? 0 : std::clamp((share - kNoTrust) / (kFullTrust - kNoTrust), 0.0, 1.0);
+    link.trust = dropped.contains(pair) ? 0 : trust_of(usual) * trust_of(tallies[pair].share(usual));
   }
 }
 
