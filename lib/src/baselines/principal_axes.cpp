@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "tcm_icp/core/error.hpp"
+#include "tcm_icp/core/rigid_transform.hpp"
 
 namespace tcm_icp {
 namespace {
@@ -15,12 +16,10 @@ struct Axes {
 
 Axes principal_axes(const Points& points) {
   if (points.empty()) throw InvalidInput("principal axes of a cloud without points");
+  const PointMoments moments(points);
   Axes axes;
-  for (const auto& p : points) axes.centroid += p;
-  axes.centroid /= static_cast<double>(points.size());
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-  for (const auto& p : points) covariance += (p - axes.centroid) * (p - axes.centroid).transpose();
-  axes.directions = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance).eigenvectors();
+  axes.centroid = moments.mean;
+  axes.directions = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(moments.covariance).eigenvectors();
   if (axes.directions.determinant() < 0) axes.directions.col(0) *= -1;
   return axes;
 }

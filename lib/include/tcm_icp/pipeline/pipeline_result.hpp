@@ -40,10 +40,9 @@ struct ScanSummary {
 /// One attempt to merge a scan into S.
 struct MergeRecord {
   std::size_t scan = 0;
-  std::vector<std::size_t>
-      members;      ///< of the group that was merged as one, of which `scan` is the reference; else none
-  int attempt = 1;  ///< a scan that fails is tried again when S, or what links it to S, has grown
-  TcmTerms tcm;     ///< against S, before the simplex
+  std::vector<std::size_t> members;  ///< of the group merged as one, with `scan` as its reference; else none
+  int attempt = 1;                   ///< a scan that fails is tried again when S, or what links it to S, has grown
+  TcmTerms tcm;                      ///< against S, before the simplex
   RegistrationResult simplex;
   std::optional<RefinementTrace> descent;
   std::optional<RefinementTrace> annealing;
@@ -103,7 +102,7 @@ struct PipelineResult {
   AdjustmentRecord adjustment;   ///< of the reference's group; robust profile only
   JointUncertainty uncertainty;  ///< of the same, in the reference's local frame; no poses in the paper profile
   std::vector<LinkRecord> links;
-  std::vector<LinkHypothesisRecord> hypotheses;  ///< none where all scans had guesses
+  std::vector<LinkHypothesisRecord> hypotheses;  ///< robust profile only
   std::vector<PairFit> pairs;                    ///< of a conventional method; in local frames
   std::vector<std::size_t> pair_tree;            ///< positions of those that the poses follow
   double feature_voxel_m = 0;                    ///< [m] a conventional method computed features at; 0: none
