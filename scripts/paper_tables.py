@@ -6,11 +6,13 @@
 Tables 1-4 (time, iterations, RMS, error due to isolated points and feature blurring), bar charts, curves over noise,
 occlusion and removal, and pictures, as CSV, Markdown, LaTeX and PNG. Data sets 1-4 after the paper are simulated: urban,
 street, canopy, street (another seed). --scenes takes your own instead: folders of scans with a truth.json. Full: medians
-over 5 seeds with their range, hours. --quick: small scans, one seed, two levels, below 10 minutes on 2 cores.
+over 5 seeds with their range, 2 hours on one core. --quick: smaller scans, one seed, two levels, below 10 minutes on 2
+cores.
 
 It can be interrupted and started again: finished cells (DIR/cells) are not run again, as long as the program is the
-same. Beside the tables: commands.txt (every command line), provenance.json (seeds, versions, commit). A cell without a
-figure says why. Needs numpy and matplotlib, and a tcm-icp built with PCL (-DTCM_ICP_WITH_PCL=ON).
+same; --methods runs the cells of some methods only. Beside the tables: commands.txt (every command line),
+provenance.json (seeds, versions, commit). A cell without a figure says why. Needs numpy and matplotlib, and a tcm-icp
+built with PCL (-DTCM_ICP_WITH_PCL=ON), which may be another one than --exe.
 """
 
 import argparse
@@ -32,7 +34,7 @@ from paper import charts, pictures
 from paper.cells import CellStore, cell_name
 from paper.formats import write_table
 from paper.measure import initial_poses, measure
-from paper.methods import METHODS, QUICK_SAMPLING, QUICK_SCENES
+from paper.methods import BY_KEY, CONVENTIONAL, METHODS, QUICK_SAMPLING, QUICK_SCENES
 from paper.plan import FULL, ISOLATED_PERCENT, ROUGH_POSES, Extent, cells, spec
 from paper.program import Program, Stopped
 from paper.progress import Progress
@@ -50,14 +52,16 @@ class Bench:
 
     def __init__(self, options, extent, data_sets):
         self.out, self.extent, self.data_sets = options.out, extent, data_sets
-        self.exe = options.exe
-        self.program = Program(options.exe, options.out / "commands.txt", extent.time_limit_s)
-        self.id = program_id(options.exe)
+        conventional = options.conventional_exe or options.exe
+        log = options.out / "commands.txt"
+        self.program = Program(options.exe, log, extent.time_limit_s)
+        self.conventional = Program(conventional, log, extent.time_limit_s)
+        self.ids = {m: program_id(conventional if m in CONVENTIONAL else options.exe) for m in BY_KEY}
         self.store = CellStore(options.out / "cells")
         self.scenes = SceneMaker(self.program, options.out / "scenes", extent.simulate)
 
     def spec(self, cell):
-        return spec(*cell, self.extent, self.id)
+        return spec(*cell, self.extent, self.ids[cell[-1]])
 
     def kept_result(self, data_set, kind, method):
         return self.out / "results" / f"set{data_set.key}-{kind}-{method}"
@@ -78,7 +82,8 @@ class Bench:
         else:
             # The first seed's results are what the pictures show.
             keep = seed == self.extent.seeds[0] and kind in ("none", "isolated")
-            result = measure(self.program, scene, method, seed, self.out / "work" / cell_name(self.spec(cell)),
+            program = self.conventional if method in CONVENTIONAL else self.program
+            result = measure(program, scene, method, seed, self.out / "work" / cell_name(self.spec(cell)),
                              extra, self.kept_result(data_set, kind, method) if keep else None,
                              self.scenes.scene(data_set, seed)[0])
         self.store.put(self.spec(cell), result)
@@ -108,6 +113,7 @@ def run_cells(bench, todo, jobs):
             list(pool.map(one, todo))
         except (KeyboardInterrupt, Stopped):
             bench.program.stop()
+            bench.conventional.stop()
             pool.shutdown(cancel_futures=True)
             sys.exit("\ninterrupted; the same command goes on where it was")
 
@@ -168,12 +174,15 @@ def main():
     ap.add_argument("--quick", action="store_true", help="small scans, one seed, two levels")
     ap.add_argument("--scenes", nargs="+", help="your own scenes in place of the simulated ones")
     ap.add_argument("--exe", type=Path, default=BUILD / "app" / "tcm-icp")
+    ap.add_argument("--conventional-exe", type=Path, help="for ICP and features, where --exe was built without PCL")
+    ap.add_argument("--methods", nargs="+", choices=list(BY_KEY), help="run these only; the others' finished cells count")
     ap.add_argument("--seeds", type=int, nargs="+", help="in place of 1 to 5, or 1 with --quick")
     ap.add_argument("--jobs", type=int, help="runs at a time: 1, or 2 with --quick; more than the idle cores disturb the times")
     ap.add_argument("--draw-only", action="store_true", help="tables and figures of the cells that are there")
     options = ap.parse_args()
-    if not os.access(options.exe, os.X_OK):
-        sys.exit(f"paper_tables.py: {options.exe} is not there: cmake --preset release && cmake --build --preset release")
+    for exe in filter(None, (options.exe, options.conventional_exe)):
+        if not os.access(exe, os.X_OK):
+            sys.exit(f"paper_tables.py: {exe} is not there: cmake --preset release && cmake --build --preset release")
     extent = QUICK if options.quick else FULL
     if options.seeds:
         extent = Extent(extent.name, tuple(options.seeds), *list(vars(extent).values())[2:])
@@ -184,9 +193,10 @@ def main():
     options.out.mkdir(parents=True, exist_ok=True)
     curve_sets = data_sets if options.scenes else [d for d in data_sets if d.key in ("2", "3")]
     bench = Bench(options, extent, data_sets)
-    write_provenance(options.out, options.exe, extent)
+    write_provenance(options.out, options.exe, extent, options.conventional_exe)
     if not options.draw_only:
-        run_cells(bench, cells(data_sets, curve_sets, extent), options.jobs or (2 if options.quick else 1))
+        methods = [BY_KEY[key] for key in options.methods] if options.methods else METHODS
+        run_cells(bench, cells(data_sets, curve_sets, extent, methods), options.jobs or (2 if options.quick else 1))
     write_tables(bench)
     draw(bench, curve_sets)
     print((options.out / "tables.md").read_text(encoding="utf-8"))

@@ -36,7 +36,11 @@ def pcl_version():
     return found if found else "unknown"
 
 
-def provenance(exe, extent):
+def program(exe):
+    return {"version": output_of(str(Path(exe).resolve()), "--version"), "sha256": program_id(exe)}
+
+
+def provenance(exe, extent, conventional_exe=None):
     import matplotlib
     import numpy
     return {"command": "scripts/" + Path(sys.argv[0]).name + " " + " ".join(sys.argv[1:]),
@@ -45,10 +49,11 @@ def provenance(exe, extent):
             "cpu_limit_s": extent.time_limit_s,
             "commit": output_of("git", "rev-parse", "HEAD"),
             "uncommitted_changes": output_of("git", "status", "--porcelain", "--untracked-files=no") != "",
-            "program": output_of(str(Path(exe).resolve()), "--version"), "program_sha256": program_id(exe),
+            "program": program(exe), "program_of_icp_and_features": program(conventional_exe or exe),
             "pcl": pcl_version(), "python": platform.python_version(), "numpy": numpy.__version__,
             "matplotlib": matplotlib.__version__, "processor": processor(), "cores": os.cpu_count()}
 
 
-def write_provenance(folder, exe, extent):
-    (folder / "provenance.json").write_text(json.dumps(provenance(exe, extent), indent=1) + "\n", encoding="utf-8")
+def write_provenance(folder, exe, extent, conventional_exe=None):
+    text = json.dumps(provenance(exe, extent, conventional_exe), indent=1)
+    (folder / "provenance.json").write_text(text + "\n", encoding="utf-8")
