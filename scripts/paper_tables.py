@@ -40,6 +40,7 @@ from paper.program import Program, Stopped
 from paper.progress import Progress
 from paper.provenance import program_id, write_provenance
 from paper.scenes import PAPER_SETS, SceneMaker, own_sets
+from paper.standing import standing
 from paper.table_rows import table
 
 BUILD = Path(__file__).resolve().parent.parent / "build" / "release"
@@ -121,10 +122,11 @@ def run_cells(bench, todo, jobs):
 def note_of(extent):
     if extent.name == "quick":
         return f"Quick run: small scans (4 a scene, a return in 0.3 m), {len(extent.seeds)} seed, {len(extent.levels)} levels of degradation."
-    return f"Full run: medians over {len(extent.seeds)} seeds, [least, largest]."
+    scans = " (4 a scene, a return in 0.2 m)" if extent.simulate[:4] == FULL.simulate[:4] else ""
+    return f"Full run: scans of moderate size{scans}, medians over {len(extent.seeds)} seeds, [least, largest]."
 
 
-def write_tables(bench):
+def write_tables(bench, curve_sets):
     parts = [f"# Tables and figures\n\n{note_of(bench.extent)} RMS and distances are of the scans a method placed; the "
              "rows of right and wrong scans say how many those are. They are taken over the points of the undamaged scans.\n"]
     for data_set in bench.data_sets:
@@ -132,6 +134,11 @@ def write_tables(bench):
         write_table(bench.out, f"table-set{data_set.key}", header, rows,
                     f"Performance of registration methods on {data_set.name}", note_of(bench.extent))
         parts.append("## " + (bench.out / f"table-set{data_set.key}.md").read_text(encoding="utf-8"))
+    header, rows, comparisons = standing(bench.data_sets, curve_sets, bench.extent, bench.results_of)
+    caption = (f"Where {BY_KEY['robust'].name} is neither best nor within 5 % of the best: {len(rows)} of {comparisons} medians "
+               "of accuracy")
+    write_table(bench.out, "standing", header, rows, caption, note_of(bench.extent))
+    parts.append("## " + (bench.out / "standing.md").read_text(encoding="utf-8"))
     (bench.out / "tables.md").write_text("\n".join(parts), encoding="utf-8")
 
 
@@ -197,7 +204,7 @@ def main():
     if not options.draw_only:
         methods = [BY_KEY[key] for key in options.methods] if options.methods else METHODS
         run_cells(bench, cells(data_sets, curve_sets, extent, methods), options.jobs or (2 if options.quick else 1))
-    write_tables(bench)
+    write_tables(bench, curve_sets)
     draw(bench, curve_sets)
     print((options.out / "tables.md").read_text(encoding="utf-8"))
 
