@@ -19,6 +19,7 @@ import argparse
 import os
 import sys
 from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
 from pathlib import Path
 
 try:
@@ -184,6 +185,7 @@ def main():
     ap.add_argument("--conventional-exe", type=Path, help="for ICP and features, where --exe was built without PCL")
     ap.add_argument("--methods", nargs="+", choices=list(BY_KEY), help="run these only; the others' finished cells count")
     ap.add_argument("--seeds", type=int, nargs="+", help="in place of 1 to 5, or 1 with --quick")
+    ap.add_argument("--levels", type=int, nargs="+", help="of the curves [%%], in place of 10 to 50, or 20 and 40 with --quick")
     ap.add_argument("--jobs", type=int, help="runs at a time: 1, or 2 with --quick; more than the idle cores disturb the times")
     ap.add_argument("--draw-only", action="store_true", help="tables and figures of the cells that are there")
     options = ap.parse_args()
@@ -192,7 +194,9 @@ def main():
             sys.exit(f"paper_tables.py: {exe} is not there: cmake --preset release && cmake --build --preset release")
     extent = QUICK if options.quick else FULL
     if options.seeds:
-        extent = Extent(extent.name, tuple(options.seeds), *list(vars(extent).values())[2:])
+        extent = replace(extent, seeds=tuple(options.seeds))
+    if options.levels:
+        extent = replace(extent, levels=tuple(options.levels))
     try:
         data_sets = own_sets(options.scenes) if options.scenes else list(PAPER_SETS)
     except ValueError as e:
