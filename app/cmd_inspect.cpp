@@ -125,7 +125,7 @@ int cmd_inspect(const Arguments& arguments) {
   console.finish();
   if (o.json) {
     std::cout << inspection_json(inspection, o.pipeline, context,
-                                 {kVersion, command_line("inspect", arguments), o.initial_poses});
+                                 {kVersion, command_line("inspect", arguments), o.initial_poses, {}});
   } else {
     print_text(inspection, o.pipeline.profile == Profile::kPaper, std::cout);
   }

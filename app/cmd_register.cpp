@@ -48,6 +48,7 @@ int cmd_register(const Arguments& arguments) {
   }
   check_usage(o);
   if (o.method != Method::kTcm) check_built_in(o.method);
+  const std::string started = time_now();
   const auto paths = paths_of(o);
   check_output_folder(o.out, o.force);
   const InitialPoses guess = read_guess(o, paths);
@@ -58,7 +59,7 @@ int cmd_register(const Arguments& arguments) {
 
   PipelineResult result = run_method(o, paths, guess, context);
   write_result(o.out, o.force, paths, result, o.pipeline, context,
-               {kVersion, command_line("register", arguments), o.initial_poses});
+               {kVersion, command_line("register", arguments), o.initial_poses, started});
   console.finish();
   if (!o.quiet) print_register_table(result, std::cerr);
   return result.all_registered() ? kSuccess : kSomeUnregistered;

@@ -1,6 +1,7 @@
 #include "run_setup.hpp"
 
 #include <algorithm>
+#include <ctime>
 #include <thread>
 
 #include "tcm_icp/io/pose_io.hpp"
@@ -26,6 +27,18 @@ RunContext run_context(const ScanSetOptions& options, Console& console) {
   context.on_progress = [&console](const Progress& p) { return console.progress(p); };
   context.log = [&console](LogLevel level, std::string_view message) { console.log(level, message); };
   return context;
+}
+
+std::string time_now() {
+  const std::time_t now = std::time(nullptr);
+  std::tm parts{};
+  localtime_r(&now, &parts);
+  char clock[32], offset[8];
+  std::strftime(clock, sizeof clock, "%Y-%m-%dT%H:%M:%S", &parts);
+  std::strftime(offset, sizeof offset, "%z", &parts);  // +0100, which is +01:00 in the form of the clock
+  std::string time(clock);
+  time.append(offset, 3).append(":").append(offset + 3);
+  return time;
 }
 
 std::string command_line(std::string_view command, const Arguments& arguments) {

@@ -21,6 +21,9 @@ InitialPoses read_guess(const ScanSetOptions& options, const std::vector<std::fi
 /// Reports to the console, which must outlive it.
 RunContext run_context(const ScanSetOptions& options, Console& console);
 
+/// Date and time on the clock of the place, ISO 8601 with the offset to UTC.
+std::string time_now();
+
 /// The command line as the user typed it, for the report.
 std::string command_line(std::string_view command, const Arguments& arguments);
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -44,6 +45,11 @@ TEST(SampleScan, CountsPointsAndTakesTheFirstAsLocalOrigin) {
   EXPECT_TRUE(s.scan.cloud.has_normals());
   EXPECT_EQ(s.surface_normals.size(), s.scan.cloud.size());
   for (const auto& p : s.scan.cloud.points) ASSERT_LT(p.norm(), 60) << "the yard is 24 m long";
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto below = std::count_if(s.scan.cloud.points.begin(), s.scan.cloud.points.end(),
+                                     [&](const Vector3d& p) { return p[axis] < s.middle[axis]; });
+    EXPECT_NEAR(static_cast<double>(below), static_cast<double>(s.scan.cloud.size()) / 2, 1) << "axis " << axis;
+  }
 }
 
 TEST(SampleScan, WorkingCloudIsBounded) {

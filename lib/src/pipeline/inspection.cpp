@@ -103,8 +103,7 @@ std::string inspection_json(const Inspection& inspection, const PipelineOptions&
     json["tcm"] = {{"paper_m4", to_json(c->paper_tcm_m4)}, {"robust_m2", to_json(c->robust_tcm_m2)}};
     json["graph"] = to_json(c->graph, c->graph.reference, inspection.scans);
   }
-  // File names need not be UTF-8; JSON must be.
-  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json_text(json);
 }
 
 }  // namespace tcm_icp

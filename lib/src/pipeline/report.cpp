@@ -1,7 +1,6 @@
 #include <algorithm>
 
 #include "report_parts.hpp"
-#include "tcm_icp/pipeline/result_writer.hpp"
 
 namespace tcm_icp {
 namespace {
@@ -117,14 +116,22 @@ const char* name_of(ScanStatus status) {
   return "unknown";
 }
 
+// Where the scan's middle lies in the frame of its component; null where no pose tells.
+Json middle_json(const ScanPose& pose, const ScanSummary& scan) {
+  const Eigen::Vector3d raw = scan.origin + scan.middle;
+  if (pose.status != ScanStatus::kUnregistered) return vector(pose.T_reference_scan * raw);
+  return pose.pose_in_component ? vector(*pose.pose_in_component * raw) : Json(nullptr);
+}
+
 }  // namespace
 
-std::string report_json(const PipelineResult& result, const PipelineOptions& options, const RunContext& context,
-                        const RunDescription& description) {
+Json report_object(const PipelineResult& result, const PipelineOptions& options, const RunContext& context,
+                   const RunDescription& description) {
   Json report{{"schema", 1},
               {"program", "tcm-icp"},
               {"version", description.version},
               {"command_line", description.command_line},
+              {"started", description.started.empty() ? Json(nullptr) : Json(description.started)},
               {"initial_poses", description.initial_poses.empty() ? Json(nullptr) : Json(description.initial_poses)},
               {"method", result.method},
               {"options", options_json(options, context)},
@@ -136,6 +143,8 @@ std::string report_json(const PipelineResult& result, const PipelineOptions& opt
     report["scans"][i]["status"] = name_of(result.poses[i].status);
     report["scans"][i]["verdict"] = result.poses[i].verdict;
     report["scans"][i]["reason"] = result.poses[i].reason;
+    report["scans"][i]["component"] = result.poses[i].component;
+    report["scans"][i]["middle_m"] = middle_json(result.poses[i], result.scans[i]);
     report["scans"][i]["evidence"] = result.evidence[i] ? to_json(*result.evidence[i]) : Json(nullptr);
     if (!result.uncertainty.poses.empty()) {
       report["scans"][i]["uncertainty"] = to_json(result.uncertainty.poses[i], origin);
@@ -172,7 +181,12 @@ std::string report_json(const PipelineResult& result, const PipelineOptions& opt
   for (const auto& s : result.stages) {
     report["stages"].push_back({{"name", s.name}, {"seconds", s.seconds}, {"peak_memory_mb", s.peak_memory_mb}});
   }
-  return report.dump(1) + "\n";
+  return report;
+}
+
+std::string report_json(const PipelineResult& result, const PipelineOptions& options, const RunContext& context,
+                        const RunDescription& description) {
+  return json_text(report_object(result, options, context, description));
 }
 
 }  // namespace tcm_icp

@@ -7,8 +7,6 @@ namespace {
 
 constexpr double kDegrees = 180 / std::numbers::pi;
 
-Json vector(const Eigen::Vector3d& v) { return {number(v.x()), number(v.y()), number(v.z())}; }
-
 Json to_json(const LinkAxis& axis) {
   return {{"slide_m", number(axis.slide_m)},
           {"slide_translation_m", vector(axis.slide_m * axis.translation)},

@@ -9,13 +9,22 @@
 #include "tcm_icp/outliers/outlier_removal.hpp"
 #include "tcm_icp/pipeline/pipeline_options.hpp"
 #include "tcm_icp/pipeline/pipeline_result.hpp"
+#include "tcm_icp/pipeline/result_writer.hpp"
 
 namespace tcm_icp {
 
 using Json = nlohmann::ordered_json;
 
+/// All of report.json. File names may hold bytes that are not UTF-8.
+Json report_object(const PipelineResult& result, const PipelineOptions& options, const RunContext& context,
+                   const RunDescription& description);
+
 /// null for NaN and infinity, which JSON does not know.
 Json number(double value);
+
+Json vector(const Eigen::Vector3d& v);
+/// As it is written to a file; bytes that are not UTF-8 become U+FFFD.
+std::string json_text(const Json& json);
 
 /// Rows first.
 Json to_json(const Eigen::MatrixXd& matrix);

@@ -15,14 +15,19 @@ namespace {
 
 constexpr std::size_t kMinPoints = 3;
 
-// 90th percentile of the distance from the median point.
-double robust_extent(const Points& points) {
+Eigen::Vector3d median_point(const Points& points) {
   std::vector<double> values(points.size());
   Eigen::Vector3d middle;
   for (int axis = 0; axis < 3; ++axis) {
     for (std::size_t i = 0; i < points.size(); ++i) values[i] = points[i][axis];
     middle[axis] = median(values);
   }
+  return middle;
+}
+
+// 90th percentile of the distance from the median point.
+double robust_extent(const Points& points, const Eigen::Vector3d& middle) {
+  std::vector<double> values(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) values[i] = (points[i] - middle).norm();
   return quantile(values, 0.9);
 }
@@ -75,7 +80,8 @@ SampledScan sample_scan(const std::filesystem::path& path, const PipelineOptions
   }
   const NeighborIndex index(scan.cloud.points);
   scan.spacing_m = median_spacing(scan.cloud.points, index);
-  scan.extent_m = robust_extent(scan.cloud.points);
+  out.middle = median_point(scan.cloud.points);
+  scan.extent_m = robust_extent(scan.cloud.points, out.middle);
   if (normals == ScanNormals::kNone) return out;
   NormalEstimate estimate = estimate_normals(scan.cloud.points, index, {}, num_threads);
   std::vector<double> roughness;

@@ -14,6 +14,7 @@ struct SampledScan {
   Scan scan;               ///< working cloud with outliers removed, with a normal at every point that has one
   Points surface_normals;  ///< the same normals, zero where the place is too rough to be a surface
   OutlierRule outliers;
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();  ///< [m] median point of the working cloud
 };
 
 /// Whether a scan needs normals: a conventional ICP does not, and should not pay for them.

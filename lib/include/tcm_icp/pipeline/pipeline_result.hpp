@@ -35,6 +35,7 @@ struct ScanSummary {
   double extent_m = 0;                               ///< [m] 90th percentile of the distance from the median point
   OutlierRule outliers;                              ///< for points in the scan's local frame
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< [m] local frame = raw coordinates minus this
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();  ///< [m] median point, local frame
 };
 
 /// One attempt to merge a scan into S.

@@ -16,9 +16,11 @@ struct RunDescription {
   std::string version;
   std::string command_line;
   std::string initial_poses;  ///< file of the initial guess; empty: none was given
+  std::string started;        ///< date and time, ISO 8601; empty: not told
 };
 
-/// The report as JSON text (docs/formats.md). Numbers that are not known are null.
+/// The report as JSON text (docs/formats.md). Numbers that are not known are null; bytes that are not UTF-8, in names
+/// of files, become U+FFFD.
 std::string report_json(const PipelineResult& result, const PipelineOptions& options, const RunContext& context,
                         const RunDescription& description);
 
