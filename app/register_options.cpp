@@ -296,8 +296,8 @@ void print_register_help(std::ostream& out) {
   std::string config;
   out << "Usage: tcm-icp register SCAN... --out DIR [OPTIONS]\n\n"
          "Puts overlapping LiDAR scans (.ply .xyz .txt .asc .pts .csv), wherever each lies, into the frame of one of\n"
-         "them. DIR receives poses.json, transforms/, registered.ply and report.json. Lengths are in the unit of the\n"
-         "scans.\n\n"
+         "them. DIR receives poses.json, transforms/, registered.ply, report.json and report.html. Lengths are in\n"
+         "the unit of the scans.\n\n"
       << command_line_only(o, config) << '\n'
       << configurable(o, choices) << "\nExample: tcm-icp register datasets/town/*.ply --out out/town\n";
 }

@@ -70,6 +70,8 @@ TEST_F(RegisterConventional, EveryScanIsRegisteredAndTheTreeHoldsThem) {
     EXPECT_EQ(std::count_if(json["conventional"]["pairs"].begin(), json["conventional"]["pairs"].end(),
                             [](const auto& p) { return p["in_tree"].template get<bool>(); }),
               2);
+    const std::string page = read_text(folder() / "result/report.html");
+    EXPECT_NE(page.find(std::string("Pairs fitted by ") + method), std::string::npos);
     std::size_t references = 0;
     for (const auto& scan : read_pose_file(folder() / "result/poses.json").scans) {
       EXPECT_NE(scan.status, ScanStatus::kUnregistered);

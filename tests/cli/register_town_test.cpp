@@ -203,6 +203,9 @@ TEST_F(RegisterTown, LeavesAScanOfAnotherPlaceUnregistered) {
     EXPECT_FALSE(file.scans[i].reason.empty());
   }
   EXPECT_NE(result.err.find("ball.xyz  unregistered"), std::string::npos) << result.err;
+  const std::string page = read_text(folder() / "result/report.html");
+  EXPECT_NE(page.find("6 of 7 scans are registered."), std::string::npos);
+  EXPECT_NE(page.find("6\u00A0<bdi class=\"file\">ball.xyz</bdi>: "), std::string::npos) << "named with the reason";
   EXPECT_EQ(score_town(file).count(PoseVerdict::kOk), 6U);
 }
 

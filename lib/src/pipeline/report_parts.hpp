@@ -15,7 +15,7 @@ namespace tcm_icp {
 
 using Json = nlohmann::ordered_json;
 
-/// All of report.json. File names may hold bytes that are not UTF-8.
+/// All of report.json, which report.html shows, too. File names may hold bytes that are not UTF-8.
 Json report_object(const PipelineResult& result, const PipelineOptions& options, const RunContext& context,
                    const RunDescription& description);
 

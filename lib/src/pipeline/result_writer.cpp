@@ -2,6 +2,7 @@
 
 #include <fstream>
 
+#include "report_html.hpp"
 #include "stage_clock.hpp"
 #include "tcm_icp/core/error.hpp"
 #include "tcm_icp/core/parallel.hpp"
@@ -82,7 +83,9 @@ void write_result(const fs::path& folder, bool overwrite, const std::vector<fs::
     write_transform(output.work() / "transforms" / (pose.file + ".txt"), pose.T_reference_scan);
   }
   clock.end();
-  write_text(output.work() / "report.json", report_json(result, options, context, description));
+  const Json report = report_object(result, options, context, description);
+  write_text(output.work() / "report.json", json_text(report));
+  write_text(output.work() / "report.html", report_html(report));
   output.commit();
 }
 

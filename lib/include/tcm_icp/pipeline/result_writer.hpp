@@ -1,5 +1,5 @@
 #pragma once
-// The files of a result: poses.json, transforms/, registered.ply, report.json.
+// The files of a result: poses.json, transforms/, registered.ply, report.json, report.html.
 
 #include <filesystem>
 #include <string>

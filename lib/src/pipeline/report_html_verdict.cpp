@@ -1,0 +1,115 @@
+#include <algorithm>
+#include <cmath>
+
+#include "report_html_parts.hpp"
+#include "report_html_text.hpp"
+
+namespace tcm_icp::html {
+namespace {
+
+bool registered(const Json& scan) { return scan.at("status") != "unregistered"; }
+
+std::string unregistered_list(const Json& report) {
+  std::string items;
+  for (const auto& scan : report.at("scans")) {
+    if (registered(scan)) continue;
+    items += "<li>" + scan_label(report, scan.at("file")) + ": " + sentence(scan.at("reason")) + "</li>\n";
+  }
+  return items.empty() ? "" : "<p>Not registered:</p>\n<ul>\n" + items + "</ul>\n";
+}
+
+std::string remarks(const Json& report) {
+  std::string out;
+  const auto remark = [&](const std::string& text) { out += "<p>" + text + "</p>\n"; };
+  if (!verifies(report)) {
+    remark(
+        "Nothing was verified: this method takes every pose it finds. Whether a scan is in its place has to be "
+        "shown by other means.");
+  }
+  for (const auto& pair : report.at("adjustment").at("outlying_links")) {
+    remark(scan_label(report, pair.at(0)) + " and " + scan_label(report, pair.at(1)) +
+           " fit each other far worse than other pairs do.");
+  }
+  std::string free, unchecked;
+  for (const auto& scan : report.at("scans")) {
+    if (scan.at("status") == "unregistered" || !verifies(report)) continue;
+    const std::string label = scan_label(report, scan.at("file"));
+    const bool is_free =
+        scan.at("status") == "registered" && scan.contains("uncertainty") && scan.at("uncertainty").is_null();
+    if (is_free) free += (free.empty() ? "" : ", ") + label;
+    if (accepted_links(report, scan.at("file")) < 2) unchecked += (unchecked.empty() ? "" : ", ") + label;
+  }
+  if (!free.empty()) remark("Not fixed in all directions by the points that match: " + free + ".");
+  if (!unchecked.empty()) {
+    remark("With fewer than two accepted links, so that no loop of such links checks their poses: " + unchecked + ".");
+  }
+  return out;
+}
+
+// The largest norm over the registered scans, NaN where none is known.
+double largest_sigma(const Json& report, const char* name) {
+  double largest = std::nan("");
+  for (const auto& scan : report.at("scans")) {
+    if (scan.at("status") != "registered" || !scan.contains("uncertainty") || scan.at("uncertainty").is_null())
+      continue;
+    double square = 0;
+    for (const auto& s : scan.at("uncertainty").at(name)) square += s.is_number() ? std::pow(s.get<double>(), 2) : 0;
+    largest = std::fmax(largest, std::sqrt(square));
+  }
+  return largest;
+}
+
+double worst_residual_mm(const Json& report) {
+  double worst = std::nan("");
+  for (const auto& scan : report.at("scans")) {
+    if (!registered(scan) || scan.at("evidence").is_null()) continue;
+    const Json& residual = scan.at("evidence").at("median_residual_m");
+    if (residual.is_number()) worst = std::fmax(worst, 1000 * residual.get<double>());
+  }
+  return worst;
+}
+
+std::string key_figures(const Json& report) {
+  long long points = 0;
+  double seconds = 0, memory_mb = 0;
+  for (const auto& scan : report.at("scans")) points += scan.at("points").get<long long>();
+  for (const auto& stage : report.at("stages")) {
+    seconds += stage.at("seconds").get<double>();
+    memory_mb = std::max(memory_mb, stage.at("peak_memory_mb").get<double>());
+  }
+  const auto& links = report.at("links");
+  const auto accepted =
+      std::count_if(links.begin(), links.end(), [](const auto& l) { return l.at("verdict") == "accepted"; });
+  std::vector<std::pair<std::string, std::string>> pairs{
+      {"reference scan", scan_label(report, report.at("graph").at("reference"))}, {"points read", count(Json(points))}};
+  if (!links.empty()) {
+    pairs.push_back({"links accepted", std::to_string(accepted) + " of " + std::to_string(links.size())});
+  }
+  const double residual = worst_residual_mm(report);
+  if (std::isfinite(residual)) pairs.push_back({"largest median residual of a scan", figure(residual) + " mm"});
+  const double position = 1000 * largest_sigma(report, "sigma_position_m"),
+               turn = largest_sigma(report, "sigma_rotation_deg");
+  if (std::isfinite(position)) pairs.push_back({"largest 1\u03C3 of a position", figure(position) + " mm"});
+  if (std::isfinite(turn)) pairs.push_back({"largest 1\u03C3 of a rotation", figure(turn) + "\u00B0"});
+  pairs.push_back({"time", figure(seconds) + " s"});
+  pairs.push_back({"most memory", figure(memory_mb) + " MiB"});
+  return facts(pairs);
+}
+
+}  // namespace
+
+std::string verdict_section(const Json& report) {
+  const auto& scans = report.at("scans");
+  const auto placed = std::count_if(scans.begin(), scans.end(), registered);
+  const bool all = placed == static_cast<std::ptrdiff_t>(scans.size());
+  const std::string of =
+      all ? "All " + std::to_string(placed) : std::to_string(placed) + " of " + std::to_string(scans.size());
+  const bool doubts = !verifies(report) || !report.at("adjustment").at("outlying_links").empty();
+  const std::string kind = !all ? "bad" : doubts ? "fair" : "good";
+  const std::string line =
+      of + (verifies(report) ? " scans are registered." : " scans have a pose, none of them verified.");
+  return "<section>\n<div class=\"verdict " + kind + "\">\n<p class=\"line\">" + line + "</p>\n" +
+         unregistered_list(report) + remarks(report) + "</div>\n" + key_figures(report) + "</section>\n";
+}
+
+}  // namespace tcm_icp::html

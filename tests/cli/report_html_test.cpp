@@ -1,0 +1,58 @@
+// report.html after `tcm-icp register`: there with every method, well-formed, and of one mind with report.json.
+
+#include "cli_test.hpp"
+#include "result_files.hpp"
+#include "support/markup.hpp"
+
+namespace tcm_icp::test {
+namespace {
+
+class ReportHtmlFile : public CliTest {
+ protected:
+  // Two scans of the town under these names; the name of a file is all the page can be attacked by.
+  RunResult register_as(const std::string& a, const std::string& b, const Words& options = {}) const {
+    std::filesystem::copy_file(town_file("000.ply"), folder() / a);
+    std::filesystem::copy_file(town_file("001.ply"), folder() / b);
+    return run(Words{"register", a, b, "--out", "result"} + kSmall + options);
+  }
+  std::string page() const { return read_text(folder() / "result/report.html"); }
+  bool page_has(const std::string& part) const { return page().find(part) != std::string::npos; }
+};
+
+TEST_F(ReportHtmlFile, NamesEveryScanWhateverItIsCalled) {
+  const RunResult result = register_as("Gr\u00FC\u00DFe & <script>.ply", "\u70B9 '\"1\".ply");
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(testing::markup_error(page()), "");
+  EXPECT_TRUE(page_has("Gr\u00FC\u00DFe &amp; &lt;script&gt;.ply"));
+  EXPECT_TRUE(page_has("\u70B9 &#39;&quot;1&quot;.ply"));
+  EXPECT_FALSE(page_has("<script"));
+  EXPECT_TRUE(page_has("All 2 scans are registered."));
+}
+
+TEST_F(ReportHtmlFile, AgreesWithReportJson) {
+  ASSERT_EQ(register_as("a.ply", "b.ply").exit_code, 0);
+  const auto json = read_json(folder() / "result/report.json");
+  for (const auto& scan : json["scans"]) EXPECT_TRUE(page_has(scan["file"])) << scan["file"];
+  EXPECT_TRUE(page_has("tcm-icp " + json["version"].get<std::string>()));
+  const auto started = json["started"].get<std::string>();
+  ASSERT_EQ(started.size(), std::string("2026-01-02T03:04:05+01:00").size());
+  EXPECT_TRUE(page_has(started.substr(0, 10) + " " + started.substr(11)));
+  for (const auto& stage : json["stages"]) EXPECT_TRUE(page_has(stage["name"].get<std::string>() + "</text>"));
+}
+
+TEST_F(ReportHtmlFile, SaysThatThePaperVerifiesNothing) {
+  ASSERT_EQ(register_as("a.ply", "b.ply", {"--profile", "paper"}).exit_code, 0);
+  EXPECT_EQ(testing::markup_error(page()), "");
+  EXPECT_TRUE(page_has("none of them verified"));
+}
+
+// JSON and HTML are UTF-8; the name of a file need not be.
+TEST_F(ReportHtmlFile, ReplacesBytesThatAreNoCharacters) {
+  const RunResult result = register_as("bad\xFF.ply", "b.ply");
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(read_json(folder() / "result/report.json")["scans"][0]["file"], "bad\uFFFD.ply");
+  EXPECT_TRUE(page_has("bad\uFFFD.ply"));
+}
+
+}  // namespace
+}  // namespace tcm_icp::test

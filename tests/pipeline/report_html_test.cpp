@@ -1,0 +1,144 @@
+#include "pipeline/report_html.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <regex>
+
+#include "support/markup.hpp"
+
+namespace tcm_icp {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+const std::vector<std::string> kNames{"<script>alert(1)</script>.ply", "a&b \"c\" 'd'.ply",
+                                      "Gr\u00FC\u00DFe \u70B9.ply", "bad\xFF\x01.ply"};
+const std::vector<std::string> kEscaped{"&lt;script&gt;alert(1)&lt;/script&gt;.ply",
+                                        "a&amp;b &quot;c&quot; &#39;d&#39;.ply", "Gr\u00FC\u00DFe \u70B9.ply",
+                                        "bad\uFFFD\uFFFD.ply"};
+
+// Three scans placed, the fourth not; of three pairs one contradicts, and one holds nothing in its weakest direction.
+PipelineResult three_of_four() {
+  PipelineResult result;
+  for (std::size_t i = 0; i < kNames.size(); ++i) {
+    ScanSummary scan;
+    scan.file = kNames[i];
+    scan.num_points = 1234567;
+    scan.extent_m = 20;
+    result.scans.push_back(scan);
+    ScanPose pose{kNames[i],  ScanStatus::kRegistered, Eigen::Isometry3d::Identity(), {}, 0,
+                  "accepted", "agrees at 70 %"};
+    pose.T_reference_scan.translation().x() = 10.0 * static_cast<double>(i);
+    result.poses.push_back(pose);
+    result.evidence.emplace_back(AlignmentEvidence{});
+    result.uncertainty.poses.emplace_back();
+  }
+  result.poses[0].status = ScanStatus::kReference;
+  result.evidence[0].reset();
+  result.poses[3] = {kNames[3],  ScanStatus::kUnregistered, Eigen::Isometry3d::Identity(), {}, 1, "rejected",
+                     "of <Mars>"};
+  result.uncertainty.poses[1].determined = true;
+  result.uncertainty.poses[1].covariance = 1e-6 * Eigen::Matrix<double, 6, 6>::Identity();
+  result.graph.measure = Eigen::MatrixXd::Zero(4, 4);
+  result.graph.adjacency.resize(4);
+  result.links.push_back({0, 1, {}, "accepted", "agrees", LinkStrength{}});
+  result.links.push_back({1, 2, {}, "rejected", "only 1 % agree", {}});
+  LinkHypothesisRecord contradicted;
+  contradicted.a = 0;
+  contradicted.b = 2;
+  contradicted.log_odds = 2;
+  contradicted.fate = "contradicted";
+  result.hypotheses.push_back(contradicted);
+  MergeRecord merge;
+  merge.scan = 1;
+  merge.accepted = true;
+  merge.tcm.f = kNaN;
+  result.merges.push_back(merge);
+  result.stages.push_back({"link & merge", 1.5, 100});
+  return result;
+}
+
+Json report_of(const PipelineResult& result, const PipelineOptions& options = {}) {
+  return report_object(result, options, {}, {"0.1.0", "tcm-icp register <&>", "", "2026-01-02T03:04:05+01:00"});
+}
+
+bool has(const std::string& page, const std::string& part) { return page.find(part) != std::string::npos; }
+
+TEST(ReportHtml, IsWellFormedWhateverTheFilesAreCalled) {
+  const std::string page = report_html(report_of(three_of_four()));
+  EXPECT_EQ(testing::markup_error(page), "");
+  for (const auto& name : kEscaped) EXPECT_TRUE(has(page, name)) << name;
+  EXPECT_FALSE(has(page, "<script"));
+  EXPECT_TRUE(has(page, "tcm-icp register &lt;&amp;&gt;"));
+  EXPECT_TRUE(has(page, "2026-01-02 03:04:05+01:00"));
+}
+
+TEST(ReportHtml, LoadsNothing) {
+  const std::string page = report_html(report_of(three_of_four()));
+  EXPECT_FALSE(std::regex_search(page, std::regex("src=|href=|url\\(|@import|onload", std::regex::icase)));
+}
+
+TEST(ReportHtml, ShowsNoNaNAndNoInfinity) {
+  const std::string page = report_html(report_of(three_of_four()));
+  EXPECT_FALSE(std::regex_search(page, std::regex("[^a-z](nan|inf|null)[^a-z]", std::regex::icase)));
+}
+
+TEST(ReportHtml, NamesWhatIsNotRegisteredAndWhy) {
+  const PipelineResult result = three_of_four();
+  const std::string page = report_html(report_of(result));
+  EXPECT_TRUE(has(page, "3 of 4 scans are registered."));
+  EXPECT_TRUE(has(page, kEscaped[3] + "</bdi>: of &lt;Mars&gt;"));
+  PipelineResult complete = result;
+  complete.poses[3] = complete.poses[2];
+  complete.poses[3].file = kNames[3];
+  EXPECT_TRUE(has(report_html(report_of(complete)), "All 4 scans are registered."));
+}
+
+TEST(ReportHtml, SaysWhereNothingIsVerified) {
+  PipelineOptions paper;
+  paper.profile = Profile::kPaper;
+  EXPECT_TRUE(has(report_html(report_of(three_of_four(), paper)), "3 of 4 scans have a pose, none of them verified."));
+  PipelineResult conventional = three_of_four();
+  conventional.method = "icp";
+  conventional.pairs.push_back({});
+  const std::string page = report_html(report_of(conventional));
+  EXPECT_TRUE(has(page, "none of them verified"));
+  EXPECT_TRUE(has(page, "Pairs fitted by icp"));
+}
+
+TEST(ReportHtml, DrawsPlacedScansAndTheirLinksByVerdict) {
+  const std::string page = report_html(report_of(three_of_four()));
+  const auto count = [&](const std::string& part) {
+    std::size_t n = 0;
+    for (auto at = page.find(part); at != std::string::npos; at = page.find(part, at + 1)) ++n;
+    return n;
+  };
+  EXPECT_EQ(count("<g><circle"), 3U);
+  // One line of each kind, and one in the legend.
+  for (const char* kind : {"good", "fair", "bad"}) EXPECT_EQ(count(std::string("class=\"link ") + kind), 2U) << kind;
+  EXPECT_EQ(count("not held"), 1U);
+}
+
+TEST(ReportHtml, DrawsEachGroupInItsOwnFrame) {
+  PipelineResult result = three_of_four();
+  for (const std::size_t i : {2UL, 3UL}) {
+    result.poses[i].status = ScanStatus::kUnregistered;
+    result.poses[i].component = 1;
+    result.poses[i].pose_in_component = Eigen::Isometry3d::Identity();
+  }
+  const std::string page = report_html(report_of(result));
+  EXPECT_TRUE(has(page, "Group 0, in the frame of"));
+  EXPECT_TRUE(has(page, "Group 1, in a frame of its own"));
+}
+
+TEST(ReportJson, IsJsonWhateverTheFilesAreCalled) {
+  const PipelineResult result = three_of_four();
+  const Json read = Json::parse(report_json(result, {}, {}, {}));
+  EXPECT_EQ(read["scans"][3]["file"], "bad\uFFFD\x01.ply");
+  EXPECT_EQ(read["scans"][2]["middle_m"][0], 20.0);
+  EXPECT_TRUE(read["scans"][3]["middle_m"].is_null());
+  EXPECT_TRUE(read["started"].is_null());
+}
+
+}  // namespace
+}  // namespace tcm_icp
