@@ -49,7 +49,7 @@ TEST(PlanLayout, MovesDiscsApartThatStandInOnePlace) {
   }
 }
 
-// Sixty along a street: too narrow for the page in any order but a heap.
+// Sixty along a street do not fit side by side.
 TEST(PlanLayout, HasRoomForManyScans) {
   std::vector<Vector2d> street;
   for (int i = 0; i < 60; ++i) street.emplace_back(2.0 * i, 0.01 * i);

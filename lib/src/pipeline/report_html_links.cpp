@@ -74,9 +74,9 @@ std::string links_section(const Json& report) {
               "Each pair is judged by its own points alone. One that is rejected does not prove itself, but may be "
               "right: the poses "
               "rest on all links. Can slide: how far one scan moves along the direction in which the two hold each "
-              "other "
-              "least until the points are off their surfaces by the noise; a rotation counts by the way of the points. "
-              "Directions are x, y, z of the reference scan."));
+              "other least until the points are off their surfaces by the noise; a rotation counts by the way of the "
+              "points. Of a shift with a turn, what moves the points more is named, by its direction in x, y, z of the "
+              "reference scan."));
 }
 
 }  // namespace tcm_icp::html
