@@ -31,7 +31,7 @@ std::vector<Correspondence> slowly(const Cloud& source, const Isometry3d& T, con
     const double cosine = std::abs((T.linear() * source.normals[i]).dot(target.normals[best]));
     if ((target.points[best] - p).norm() > gate.max_distance_m) continue;
     if (std::acos(std::min(1.0, cosine)) > gate.max_normal_angle_rad) continue;
-    out.push_back({p, target.points[best], target.normals[best]});
+    out.push_back({p, target.points[best], target.normals[best], cosine});
   }
   return out;
 }
@@ -50,6 +50,7 @@ TEST(FindCorrespondences, EqualsALoopOverAllPairs) {
     EXPECT_TRUE(testing::is_near(expected[i].source, found[i].source, 1e-12));
     EXPECT_EQ(expected[i].target, found[i].target);
     EXPECT_EQ(expected[i].normal, found[i].normal);
+    EXPECT_NEAR(expected[i].agreement, found[i].agreement, 1e-12);
   }
 }
 

@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "tcm_icp/core/parallel.hpp"
+#include "tcm_icp/registration/match_precision.hpp"
 
 namespace tcm_icp {
 namespace {
@@ -43,6 +44,7 @@ std::vector<JointLink> match_pairs(const std::vector<PreparedScan>& scans, const
       }
     }
   });
+  set_precisions(links);
   return links;
 }
 

@@ -18,8 +18,9 @@ std::vector<Correspondence> find_correspondences(const Cloud& source, const Eige
     const Eigen::Vector3d& n_target = target.cloud.normals[q.index];
     const bool has_source = !n_source.isZero(), has_target = !n_target.isZero();
     if (!has_source && !has_target) continue;
-    if (has_source && has_target && std::abs(n_source.dot(n_target)) < min_cosine) continue;
-    out.push_back({p, target.cloud.points[q.index], has_target ? n_target : n_source});
+    const double agreement = std::abs(n_source.dot(n_target));
+    if (has_source && has_target && agreement < min_cosine) continue;
+    out.push_back({p, target.cloud.points[q.index], has_target ? n_target : n_source, agreement});
   }
   return out;
 }

@@ -13,6 +13,8 @@ struct Correspondence {
   Eigen::Vector3d source;  ///< the source point, moved by the pose [m]
   Eigen::Vector3d target;  ///< its nearest target point [m]
   Eigen::Vector3d normal;  ///< unit normal of the plane between them
+  double agreement = 0;    ///< |cosine| of the angle between the normals of both points; 0 where one has none
+  double precision = 1;    ///< what the residual is multiplied by before it is weighed; 1: as good as any other
 };
 
 struct CorrespondenceGate {

@@ -15,15 +15,18 @@ struct JointLink {
   std::vector<Correspondence> matches;
 };
 
-/// Distance [m] of the source point from the plane at the target point, with the normal's sign.
-inline double residual_m(const Correspondence& match) { return match.normal.dot(match.source - match.target); }
+/// Distance [m] of the source point from the plane at the target point, with the normal's sign, times the match's
+/// precision: all residuals have one standard deviation where precisions are right.
+inline double residual_m(const Correspondence& match) {
+  return match.precision * match.normal.dot(match.source - match.target);
+}
 
 /// Derivative of the residual by a step of the source scan about `frame`; a step of the target scan about a frame of
 /// its own has the opposite sign. All six entries are without unit: the rotation is measured by its arc at the radius.
 inline Twist residual_gradient(const Correspondence& match, const TwistFrame& frame) {
   Twist gradient;
   gradient << (match.source - frame.centre).cross(match.normal) / frame.radius_m, match.normal;
-  return gradient;
+  return match.precision * gradient;
 }
 
 /// Absolute residuals [m] of all matches, in order.

@@ -1,0 +1,54 @@
+#include "tcm_icp/registration/match_precision.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tcm_icp/core/statistics.hpp"
+
+namespace tcm_icp {
+namespace {
+
+constexpr std::size_t kMaxClasses = 8;
+constexpr std::size_t kMatchesOfClass = 100;  // fewest: their median absolute residual is good to about a tenth
+
+double plane_distance_m(const Correspondence& match) { return std::abs(match.normal.dot(match.source - match.target)); }
+
+// Agreements that part the matches into classes of one size, ascending.
+std::vector<double> class_borders(std::vector<double> agreements) {
+  const std::size_t num_classes = std::clamp<std::size_t>(agreements.size() / kMatchesOfClass, 1, kMaxClasses);
+  std::sort(agreements.begin(), agreements.end());
+  std::vector<double> borders;
+  for (std::size_t k = 1; k < num_classes; ++k) borders.push_back(agreements[k * agreements.size() / num_classes]);
+  return borders;
+}
+
+}  // namespace
+
+void set_precisions(std::vector<JointLink>& links) {
+  std::vector<double> agreements, distances;
+  for (const auto& link : links) {
+    for (const auto& match : link.matches) {
+      agreements.push_back(match.agreement);
+      distances.push_back(plane_distance_m(match));
+    }
+  }
+  if (distances.empty()) return;
+  const std::vector<double> borders = class_borders(agreements);
+  const auto class_of = [&](double agreement) {
+    return static_cast<std::size_t>(std::upper_bound(borders.begin(), borders.end(), agreement) - borders.begin());
+  };
+  std::vector<std::vector<double>> of_class(borders.size() + 1);
+  for (std::size_t i = 0; i < distances.size(); ++i) of_class[class_of(agreements[i])].push_back(distances[i]);
+
+  const double typical_m = median(distances);
+  std::vector<double> precisions;
+  for (auto& values : of_class) {
+    const double own_m = values.empty() ? typical_m : median(values);
+    precisions.push_back(typical_m > 0 ? typical_m / std::max(own_m, typical_m / kMaxPrecision) : 1);
+  }
+  for (auto& link : links) {
+    for (auto& match : link.matches) match.precision = precisions[class_of(match.agreement)];
+  }
+}
+
+}  // namespace tcm_icp
