@@ -1,5 +1,6 @@
 #include "joint_matches.hpp"
 
+#include <algorithm>
 #include <numbers>
 
 #include "tcm_icp/core/parallel.hpp"
@@ -8,12 +9,18 @@
 namespace tcm_icp {
 namespace {
 
-constexpr std::size_t kSharesOfSample = 3;  // each neighbour sees a third of a scan's points, not the same third
+// A scan with many neighbours shows each of them a part of its points, not the same part, so that its cost is bounded:
+// up to this many times its whole sample, as far as no part is less than a third.
+constexpr std::size_t kSamplesOfScan = 3, kMostParts = 3;
 constexpr double kNormalAngle = std::numbers::pi / 6;
 
-Cloud share_of(const Cloud& cloud, std::size_t which) {
+std::size_t parts_for(std::size_t num_neighbors) {
+  return std::clamp<std::size_t>((num_neighbors + kSamplesOfScan - 1) / kSamplesOfScan, 1, kMostParts);
+}
+
+Cloud part_of(const Cloud& cloud, std::size_t which, std::size_t num_parts) {
   Cloud out;
-  for (std::size_t i = which % kSharesOfSample; i < cloud.size(); i += kSharesOfSample) {
+  for (std::size_t i = which % num_parts; i < cloud.size(); i += num_parts) {
     out.points.push_back(cloud.points[i]);
     out.normals.push_back(cloud.normals[i]);
   }
@@ -26,17 +33,22 @@ std::vector<JointLink> match_pairs(const std::vector<PreparedScan>& scans, const
                                    const std::vector<Eigen::Isometry3d>& T_reference_scan, double max_distance_m,
                                    int num_threads) {
   std::vector<JointLink> links;
+  std::vector<std::size_t> num_neighbors(scans.size(), 0);
   for (const auto& [a, b] : pairs) {
     links.push_back({a, b, {}});
     links.push_back({b, a, {}});
+    ++num_neighbors[a];
+    ++num_neighbors[b];
   }
   const CorrespondenceGate gate{max_distance_m, kNormalAngle};
   parallel_for(num_threads, links.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       JointLink& link = links[k];
       const Eigen::Isometry3d& T = T_reference_scan[link.target];
-      link.matches = find_correspondences(share_of(scans[link.source].fine_sample, scans[link.target].share),
-                                          T.inverse() * T_reference_scan[link.source], scans[link.target].fine, gate);
+      const Cloud source =
+          part_of(scans[link.source].fine_sample, scans[link.target].share, parts_for(num_neighbors[link.source]));
+      link.matches =
+          find_correspondences(source, T.inverse() * T_reference_scan[link.source], scans[link.target].fine, gate);
       for (auto& m : link.matches) {
         m.source = T * m.source;
         m.target = T * m.target;
