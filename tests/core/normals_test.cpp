@@ -42,6 +42,24 @@ TEST(Normals, ALineHasNone) {
   for (const auto& n : estimate_normals(line, NeighborIndex(line), {}, 1).normals) EXPECT_TRUE(n.isZero(0));
 }
 
+// On a grid many neighbours are as far as the last one taken. In another unit, or far away, they come in another order.
+TEST(Normals, OfAGridDoNotTurnByTheRoundingOfItsCoordinates) {
+  Points grid;
+  for (int x = 0; x < 30; ++x) {
+    for (int y = 0; y < 30; ++y) grid.emplace_back(0.01 * x, 0.01 * y, 0.01 * ((7 * x + 3 * y) % 4));
+  }
+  const NormalEstimate here = estimate_normals(grid, NeighborIndex(grid), {}, 1);
+  for (const auto& [scale, offset] : {std::pair(0.001, 0.0), std::pair(1000.0, 0.0), std::pair(1.0, 5e6)}) {
+    Points moved;
+    for (const auto& p : grid) moved.push_back((scale * p).array() + offset);
+    const NormalEstimate there = estimate_normals(moved, NeighborIndex(moved), {}, 1);
+    // Coordinates of 5 million are rounded by 1e-9, a spacing of 0.01 by 1e-7 of itself.
+    for (std::size_t i = 0; i < grid.size(); ++i) {
+      EXPECT_LT(here.normals[i].cross(there.normals[i]).norm(), 1e-6) << i << " times " << scale << " plus " << offset;
+    }
+  }
+}
+
 TEST(Normals, TheNumberOfThreadsDoesNotMatter) {
   Rng rng = make_stream(3, "normals_test");
   const Points points = testing::random_points(3000, 10, rng);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "core/tie.hpp"
 #include "tcm_icp/core/error.hpp"
 #include "tcm_icp/core/even_sample.hpp"
 #include "tcm_icp/core/parallel.hpp"
@@ -46,6 +47,19 @@ Plane fit_plane(const Points& points, const std::vector<Neighbor>& neighbors) {
   return plane;
 }
 
+// The k nearest, and those as far as the last of them: which of equals is taken would turn the normal.
+void nearest_k_and_ties(const NeighborIndex& index, const Eigen::Vector3d& query, std::size_t k,
+                        std::vector<Neighbor>& out) {
+  index.nearest_k(query, k + 1, out);
+  if (out.size() <= k) return;
+  const double last = out[k - 1].squared_distance_m2;
+  if (clearly_less(last, out[k].squared_distance_m2)) {
+    out.pop_back();
+  } else if (last > 0) {  // copies of the point itself are all the same
+    index.within(query, std::sqrt(last * (1 + kTieShare)), out);
+  }
+}
+
 }  // namespace
 
 void NormalOptions::validate() const {
@@ -68,7 +82,7 @@ NormalEstimate estimate_normals(const Points& points, const NeighborIndex& index
     for (std::size_t i = begin; i < end; ++i) {
       Plane plane;
       for (int k = options.min_neighbors; plane.is_line; k = std::min(2 * k, options.max_neighbors)) {
-        index.nearest_k(points[i], static_cast<std::size_t>(k), neighbors);
+        nearest_k_and_ties(index, points[i], static_cast<std::size_t>(k), neighbors);
         if (neighbors.size() < 3) break;
         plane = fit_plane(points, neighbors);
         if (k == options.max_neighbors) break;
