@@ -108,5 +108,18 @@ TEST(VoxelDownsample, NormalsOfOppositeSignAreTheSameSurface) {
   EXPECT_NEAR(std::abs(sample.normals[0].z()), 1, 1e-15);
 }
 
+// Two points are as far from their mean, whatever rounding says.
+TEST(VoxelDownsample, OfTwoPointsTheFirstGivesTheNormalsSign) {
+  Rng rng = make_stream(5, "voxel_sampler_test");
+  for (int i = 0; i < 200; ++i) {
+    const Points two{testing::random_points(1, 0.5, rng).front(), testing::random_points(1, 0.5, rng).front()};
+    Cloud cloud{{}, {Eigen::Vector3d::UnitX(), -Eigen::Vector3d::UnitX()}};
+    for (const auto& p : two) cloud.points.emplace_back(p.array() + 2);
+    const Cloud sample = voxel_downsample(cloud, 4);
+    ASSERT_EQ(sample.size(), 1u);
+    EXPECT_NEAR(sample.normals[0].x(), 1, 1e-15);
+  }
+}
+
 }  // namespace
 }  // namespace tcm_icp

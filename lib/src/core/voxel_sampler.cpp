@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "core/tie.hpp"
 #include "tcm_icp/core/error.hpp"
 #include "tcm_icp/core/statistics.hpp"
 #include "voxel_table.hpp"
@@ -189,13 +190,14 @@ Cloud voxel_downsample(const Cloud& cloud, double voxel_size_m) {
   for (const auto& v : voxels) out.points.push_back(v.sum / v.count);
   if (!cloud.has_normals()) return out;
 
-  // Normals have no sign: take the point nearest the mean for the direction, and add the others turned its way.
+  // Normals have no sign: take the point nearest the mean for the direction, and add the others turned its way. Of two
+  // points, both are as near: the first.
   constexpr auto kNone = std::numeric_limits<std::uint32_t>::max();
   std::vector<std::uint32_t> nearest(voxels.size(), kNone);
   std::vector<double> nearest_squared(voxels.size(), std::numeric_limits<double>::infinity());
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     const double squared = (cloud.points[i] - out.points[voxel_of[i]]).squaredNorm();
-    if (!cloud.normals[i].isZero() && squared < nearest_squared[voxel_of[i]]) {
+    if (!cloud.normals[i].isZero() && clearly_less(squared, nearest_squared[voxel_of[i]])) {
       nearest_squared[voxel_of[i]] = squared;
       nearest[voxel_of[i]] = static_cast<std::uint32_t>(i);
     }
