@@ -51,6 +51,26 @@ TEST(Vertical, IsFoundWithItsSignWhateverTheFrame) {
   }
 }
 
+// An axis of normals has no sign of its own. Hills have many axes that are nearly as good as one another.
+TEST(Vertical, IsTheSameWhateverTheNormalsSigns) {
+  Rng rng = make_stream(9, "test");
+  for (int trial = 0; trial < 20; ++trial) {
+    Cloud hills;
+    for (int i = 0; i < 1500; ++i) {
+      const double x = 40 * uniform01(rng), y = 40 * uniform01(rng);
+      hills.points.emplace_back(x, y, 2 * std::sin(x / 4) * std::cos(y / 5));
+      const double dx = std::cos(x / 4) * std::cos(y / 5) / 2, dy = -std::sin(x / 4) * std::sin(y / 5) / 2.5;
+      hills.normals.push_back(Eigen::Vector3d(-dx, -dy, 1).normalized());
+    }
+    hills = transformed(hills, random_pose(100, rng));
+    const auto directions = find_up_directions(hills);
+    for (auto& n : hills.normals) {
+      if (uniform01(rng) < 0.5) n = -n;
+    }
+    EXPECT_EQ(find_up_directions(hills), directions) << trial;
+  }
+}
+
 // A wall is the larger surface, and a scan from below a ceiling would be taken for one upside down.
 TEST(Vertical, OfALevelledScanIsZAsFloorsHaveIt) {
   Rng rng = make_stream(8, "test");

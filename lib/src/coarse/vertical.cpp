@@ -95,6 +95,16 @@ void level_by_normals(const Points& normals, Eigen::Vector3d& axis) {
   }
 }
 
+// An axis has no sign, but the plan it is measured on is turned by it: one of the two is taken. Not by the largest
+// entry: where two are equal, rounding would choose. One of three is always above 1/2, which is no direction of note.
+void fix_sign(Eigen::Vector3d& axis) {
+  for (const int k : {2, 1, 0}) {
+    if (std::abs(axis[k]) < 0.5) continue;
+    if (axis[k] < 0) axis = -axis;
+    return;
+  }
+}
+
 }  // namespace
 
 void VerticalOptions::validate() const {
@@ -129,6 +139,7 @@ std::vector<Eigen::Vector3d> find_up_directions(const Cloud& cloud, const Vertic
   std::vector<Axis> axes;
   for (auto& direction : directions) {
     level_by_normals(normals, direction);
+    fix_sign(direction);
     axes.push_back({direction, static_cast<double>(
                                    make_envelope(cloud.points, levelling_rotation(direction), cell_m).num_occupied())});
   }
