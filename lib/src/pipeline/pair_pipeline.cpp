@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "name_order.hpp"
 #include "prepared_scan.hpp"
 #include "scan_set.hpp"
 #include "stage_clock.hpp"
@@ -75,13 +76,9 @@ ScanPose scan_pose(const std::vector<SampledScan>& scans, std::size_t i, std::si
   return pose;
 }
 
-}  // namespace
-
-PipelineResult register_by_pairs(const std::vector<std::filesystem::path>& paths, const InitialPoses& initial_poses,
-                                 const PipelineOptions& options, const RunContext& context, const std::string& name,
-                                 const PairMethod& method) {
-  options.validate();
-  check_paths(paths, initial_poses);
+PipelineResult run_pairs(const std::vector<std::filesystem::path>& paths, const InitialPoses& initial_poses,
+                         const PipelineOptions& options, const RunContext& context, const std::string& name,
+                         const PairMethod& method) {
   PipelineResult result;
   result.method = name;
   const std::size_t n = paths.size();
@@ -111,6 +108,20 @@ PipelineResult register_by_pairs(const std::vector<std::filesystem::path>& paths
   result.pair_tree = tree;
   result.feature_voxel_m = fits.feature_voxel_m;
   clock.end();
+  return result;
+}
+
+}  // namespace
+
+PipelineResult register_by_pairs(const std::vector<std::filesystem::path>& paths, const InitialPoses& initial_poses,
+                                 const PipelineOptions& options, const RunContext& context, const std::string& name,
+                                 const PairMethod& method) {
+  options.validate();
+  check_paths(paths, initial_poses);
+  const std::vector<std::size_t> order = order_by_name(paths);
+  PipelineResult result =
+      run_pairs(in_order(paths, order), in_order(initial_poses, order), options, context, name, method);
+  restore_order(order, result);
   return result;
 }
 

@@ -9,6 +9,7 @@
 #include "link_score.hpp"
 #include "link_verification.hpp"
 #include "merging.hpp"
+#include "name_order.hpp"
 #include "pair_search.hpp"
 #include "scan_set.hpp"
 #include "stage_clock.hpp"
@@ -225,7 +226,7 @@ class Run {
     number_components();
   }
 
-  // The reference's group is 0, other groups and single scans follow in the order of the files.
+  // The reference's group is 0, other groups and single scans follow in the order of their names.
   void number_components() {
     std::vector<int> number(components_.size(), -1);
     number[0] = 0;
@@ -295,7 +296,12 @@ PipelineResult Pipeline::run(const std::vector<std::filesystem::path>& paths, co
                          "; name the files of all scans");
   }
   check_paths(paths, initial_poses);
-  return Run(options_, context)(paths, initial_poses);
+  // Who asks for the order of the list gets it.
+  if (options_.merge_order == MergeOrder::kFile) return Run(options_, context)(paths, initial_poses);
+  const std::vector<std::size_t> order = order_by_name(paths);
+  PipelineResult result = Run(options_, context)(in_order(paths, order), in_order(initial_poses, order));
+  restore_order(order, result);
+  return result;
 }
 
 }  // namespace tcm_icp

@@ -55,7 +55,7 @@ struct MergeRecord {
 
 /// Two scans whose points overlap at the final poses.
 struct LinkRecord {
-  std::size_t a = 0, b = 0;    ///< a < b
+  std::size_t a = 0, b = 0;    ///< the file of a comes first by name
   AlignmentEvidence evidence;  ///< of the direction that overlaps more
   std::string verdict, reason;
   std::optional<LinkStrength> strength;  ///< in the reference's local frame; robust profile only
@@ -75,7 +75,7 @@ struct AdjustmentRecord {
 
 /// A pose that a pair may have, found without a guess, and what became of it.
 struct LinkHypothesisRecord {
-  std::size_t a = 0, b = 0;                                 ///< a < b
+  std::size_t a = 0, b = 0;                                 ///< the file of a comes first by name
   Eigen::Isometry3d T_a_b = Eigen::Isometry3d::Identity();  ///< for raw coordinates
   PoseCandidate candidate;                                  ///< the coarse pose it came from; local frames
   AlignmentEvidence evidence;                               ///< of the pair alone
