@@ -1,0 +1,45 @@
+#pragma once
+// A scan must not see through another's walls, nor both see one side of a wall from opposite sides.
+
+#include <Eigen/Geometry>
+#include <cstddef>
+
+#include "tcm_icp/registration/scan_pyramid.hpp"
+#include "tcm_icp/visibility/sight.hpp"
+
+namespace tcm_icp {
+
+/// Of matches, by noise, thin things and what moved: right poses have 0.07 and less, a wall's wrong face 0.3 and more.
+constexpr double kMaxOpposedShare = 0.12;
+
+/// What speaks against a pose. That nothing does, or that a scan has no viewpoint, speaks for none.
+struct FreeSpaceEvidence {
+  std::size_t num_points = 0;     ///< smooth points of one scan at surfaces the other saw, or before them
+  std::size_t num_violating = 0;  ///< of these, before them: the other looked through
+  std::size_t num_matches = 0;    ///< points of both that meet, the side known that was seen of each
+  std::size_t num_opposed = 0;    ///< of these, opposite sides
+
+  double violation_share() const { return share(num_violating, num_points); }
+  double opposed_share() const { return share(num_opposed, num_matches); }
+  /// The larger of both shares in units of the most that noise, or what moved between the scans, may make; 0 where too
+  /// few points tell.
+  double excess() const;
+  bool vetoes() const { return excess() > 1; }
+  FreeSpaceEvidence& operator+=(const FreeSpaceEvidence& other);
+
+ private:
+  static double share(std::size_t part, std::size_t all) {
+    return all == 0 ? 0 : static_cast<double>(part) / static_cast<double>(all);
+  }
+};
+
+struct SightedScan {
+  const PyramidLevel& surfaces;  ///< coarse voxel; `facing` is of these points
+  const Sight& sight;
+};
+
+/// Both directions together; where a scan's images differ, the one with the least share of violations counts.
+/// Cost: at most 3,000 points a direction, each a query and a look at up to seven images.
+FreeSpaceEvidence measure_free_space(const SightedScan& a, const SightedScan& b, const Eigen::Isometry3d& T_a_b);
+
+}  // namespace tcm_icp

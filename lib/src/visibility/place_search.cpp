@@ -1,0 +1,109 @@
+#include "place_search.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+namespace tcm_icp {
+namespace {
+
+// Scanners stand within what they see, or beside it. A flat scan is looked at from above and below, too.
+constexpr std::size_t kGridPlaces = 1200;
+constexpr float kGridMargin = 0.3F, kLeastMargin = 0.1F;
+
+// As good as the best, but for chance.
+constexpr double kAsGoodFactor = 1.25, kAsGoodMargin = 0.001;
+constexpr int kTrialMoves = 48;
+constexpr double kLongestMove = 0.2;
+
+// Places along the line on which those as good lie: a narrow field of view leaves the distance open, and few random
+// moves meet that line.
+void look_along(HiddenShare& hidden, const Found& from, std::vector<Found>& found) {
+  Eigen::Matrix3f spread = Eigen::Matrix3f::Zero();
+  for (const Place& p : as_good(found, from)) spread += (p - from.place) * (p - from.place).transpose();
+  const Eigen::Vector3f direction = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3f>(spread).eigenvectors().col(2);
+  for (const double length : {0.0125, 0.025, 0.05, 0.1, 0.2}) {
+    for (const double sign : {-1.0, 1.0}) {
+      const Place place = from.place + static_cast<float>(sign * length) * direction;
+      found.push_back({hidden(place), place});
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<Found> best_of(std::vector<Found> found, std::size_t count, double apart) {
+  std::stable_sort(found.begin(), found.end(), [](const Found& a, const Found& b) { return a.hidden < b.hidden; });
+  std::vector<Found> out;
+  for (const Found& f : found) {
+    if (out.size() == count) break;
+    const bool known = std::any_of(
+        out.begin(), out.end(), [&](const Found& o) { return (o.place - f.place).norm() < static_cast<float>(apart); });
+    if (!known) out.push_back(f);
+  }
+  return out;
+}
+
+Eigen::AlignedBox3f search_box(const Eigen::AlignedBox3f& of_points) {
+  const Eigen::Vector3f margin = (kGridMargin * of_points.sizes()).cwiseMax(kLeastMargin);
+  return {of_points.min() - margin, of_points.max() + margin};
+}
+
+std::vector<Found> search_grid(HiddenShare& hidden, const Eigen::AlignedBox3f& box, std::size_t count) {
+  const Eigen::Vector3f sizes = box.sizes();
+  const double step = std::cbrt(static_cast<double>(sizes.prod()) / kGridPlaces);
+  Eigen::Array3i counts;
+  for (int k = 0; k < 3; ++k)
+    counts[k] = std::max(1, static_cast<int>(std::lround(sizes[k] / static_cast<float>(step))));
+  std::vector<Found> found;
+  for (int i = 0; i < counts[0]; ++i) {
+    for (int j = 0; j < counts[1]; ++j) {
+      for (int k = 0; k < counts[2]; ++k) {
+        const Eigen::Array3f share = (Eigen::Array3f(i, j, k) + 0.5F) / counts.cast<float>();
+        const Place place = box.min().array() + share * sizes.array();
+        found.push_back({hidden(place), place});
+      }
+    }
+  }
+  return best_of(found, count, 1.5 * step);  // not next to one another
+}
+
+void descend(HiddenShare& hidden, double first_step, double last_step, Found& at) {
+  at.hidden = hidden(at.place);
+  for (double step = first_step; step >= last_step; step /= 2) {
+    int failed = 0;
+    for (int k = 0; failed < 6; k = (k + 1) % 6) {
+      Place place = at.place;
+      place[k / 2] += static_cast<float>(k % 2 == 0 ? step : -step);
+      const double share = hidden(place);
+      if (share < at.hidden) {
+        at = {share, place};
+        failed = 0, --k;
+      } else {
+        ++failed;
+      }
+    }
+  }
+}
+
+std::vector<Place> as_good(const std::vector<Found>& around, const Found& best) {
+  std::vector<Place> good;
+  for (const Found& f : around) {
+    if (f.hidden <= kAsGoodFactor * best.hidden + kAsGoodMargin) good.push_back(f.place);
+  }
+  return good;
+}
+
+std::vector<Found> look_around(HiddenShare& hidden, const Found& from, Rng& rng) {
+  std::vector<Found> found;
+  for (int k = 0; k < kTrialMoves; ++k) {
+    const Eigen::Vector3d direction(standard_normal(rng), standard_normal(rng), standard_normal(rng));
+    const double length = kLongestMove * uniform01(rng);
+    const Place place = from.place + (length * direction.normalized()).cast<float>();
+    found.push_back({hidden(place), place});
+  }
+  look_along(hidden, from, found);
+  return found;
+}
+
+}  // namespace tcm_icp

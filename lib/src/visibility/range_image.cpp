@@ -1,0 +1,44 @@
+#include "tcm_icp/visibility/range_image.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "direction_bins.hpp"
+
+namespace tcm_icp {
+namespace {
+
+const DirectionBins kBins(41'253);  // square degrees of a sphere
+
+}  // namespace
+
+RangeImage::RangeImage(const Eigen::Vector3d& place, const Points& points) : place_(place), bins_(kBins.size()) {
+  constexpr float kFar = std::numeric_limits<float>::max();
+  std::vector<float> least(kBins.size(), kFar), greatest(kBins.size(), 0);
+  for (const auto& p : points) {
+    const Eigen::Vector3f d = (p - place).cast<float>();
+    const auto bin = static_cast<std::size_t>(kBins(d.x(), d.y(), d.z()));
+    const float range = d.norm();
+    least[bin] = std::min(least[bin], range);
+    greatest[bin] = std::max(greatest[bin], range);
+  }
+  for (int row = 0; row < kBins.edge(); ++row) {
+    for (int column = 0; column < kBins.edge(); ++column) {
+      Surroundings& s = bins_[kBins.wrapped(row, column)];
+      s.least_m = kFar;
+      for (int k = 0; k < 9; ++k) {
+        const std::size_t near = kBins.wrapped(row + k / 3 - 1, column + k % 3 - 1);
+        s.least_m = std::min(s.least_m, least[near]);
+        s.greatest_m = std::max(s.greatest_m, greatest[near]);
+        s.num_filled += least[near] < kFar ? 1 : 0;
+      }
+    }
+  }
+}
+
+RangeImage::Surroundings RangeImage::about(const Eigen::Vector3d& direction) const {
+  const Eigen::Vector3f d = direction.cast<float>();
+  return bins_[static_cast<std::size_t>(kBins(d.x(), d.y(), d.z()))];
+}
+
+}  // namespace tcm_icp
