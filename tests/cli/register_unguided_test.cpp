@@ -1,6 +1,7 @@
 // `tcm-icp register` without --init: scans in frames of their own come together, and what does not belong stays out.
 
 #include <algorithm>
+#include <cmath>
 
 #include "cli_test.hpp"
 #include "result_files.hpp"
@@ -163,6 +164,39 @@ TEST_F(RegisterUnguided, TwoPlacesAreTwoGroups) {
   const Eigen::Isometry3d T_a_b = file.scans[2].pose_in_component->inverse() * *file.scans[3].pose_in_component;
   ASSERT_GT(difference_m(Eigen::Isometry3d::Identity(), T_of(street, 0, 1), 20), 1);
   EXPECT_LT(difference_m(T_a_b, T_of(street, 0, 1), 20), 0.1);
+}
+
+// Equal rooms along a corridor: pairs alone agree at many poses, and what was seen through tells them apart.
+TEST_F(RegisterUnguided, RoomsThatRepeatAreToldApartByFreeSpace) {
+  ASSERT_EQ(run({"simulate", "--scene", "interior", "--scans", "6", "--seed", "1", "--out", "rooms"}).exit_code, 0);
+  Words files;
+  for (int i = 0; i < 6; ++i) files.push_back("rooms/00" + std::to_string(i) + ".ply");
+  register_to("result", files);
+  run({"evaluate", "--poses", "result/poses.json", "--truth", "rooms/truth.json", "--scans", "rooms", "--json",
+       "score.json"});
+  const auto score = read_json(folder() / "score.json");
+  EXPECT_EQ(score["wrong"], 0);
+  EXPECT_GE(score["ok"], 5) << "pairs alone placed none but the reference";
+  const auto report = read_json(folder() / "result/report.json"), truth = read_json(folder() / "rooms/truth.json");
+  std::size_t determined = 0, vetoed = 0;
+  for (std::size_t i = 0; i < 6; ++i) {
+    const auto& viewpoint = report["scans"][i]["viewpoint"];
+    if (!viewpoint["determined"]) continue;
+    ++determined;
+    double squared = 0;
+    for (int k = 0; k < 3; ++k) {
+      const double apart = viewpoint["place"][k].get<double>() - truth["scans"][i]["scanner"][k].get<double>();
+      squared += apart * apart;
+    }
+    EXPECT_LT(std::sqrt(squared), 0.25) << "of rooms of 4 to 8 m";
+  }
+  EXPECT_GE(determined, 4U);
+  for (const auto& h : report["hypotheses"]) {
+    if (h["free_space"].is_null() || !h["free_space"]["veto"]) continue;
+    ++vetoed;
+    EXPECT_LE(h["log_odds"], -6);
+  }
+  EXPECT_GT(vetoed, 50U);
 }
 
 TEST_F(RegisterUnguided, AMirroredScanStaysOut) {

@@ -137,6 +137,36 @@ TEST(FitCandidates, WithoutCandidatesThereIsNoHypothesis) {
   EXPECT_TRUE(link.hypotheses.empty());
 }
 
+// Three poses apart from one another; free space vetoes the one that agrees best.
+TEST(CandidateLink, AVetoedPoseIsUnlikelyAndNoRival) {
+  const double voxel_m = 0.1;
+  Rng rng = make_stream(8, "link_search_test");
+  Points points;
+  for (int i = 0; i < 100; ++i) points.push_back(testing::random_pose(10, rng).translation());
+  CandidateLink link{0, 1, {}};
+  for (const double agreeing : {0.6, 0.9, 0.5}) {
+    LinkHypothesis h;
+    h.T_a_b = testing::random_pose(30, rng);
+    h.candidate.margin = 2;
+    h.evidence.overlap = 0.8;
+    h.evidence.inlier_share = agreeing;
+    h.evidence.median_residual_m = 0.01;
+    h.evidence.left_after_slide.fill(0.3);
+    link.hypotheses.push_back(h);
+  }
+  const Isometry3d vetoed = link.hypotheses[1].T_a_b, right = link.hypotheses[0].T_a_b;
+  link.hypotheses[1].free_space = {1000, 200, 0, 0};
+  link.rank(points, voxel_m);
+  EXPECT_TRUE(testing::is_pose_near(vetoed, link.hypotheses.back().T_a_b, 0, 0));
+  EXPECT_LE(link.hypotheses.back().log_odds, kVetoedLogOdds);
+  const LinkHypothesis& best = link.hypotheses.front();
+  EXPECT_TRUE(testing::is_pose_near(right, best.T_a_b, 0, 0));
+  EXPECT_EQ(best.log_odds, link_log_odds(best.evidence, best.candidate, voxel_m)) << "nothing lost to a vetoed pose";
+  EXPECT_LT(link.hypotheses[1].log_odds,
+            link_log_odds(link.hypotheses[1].evidence, link.hypotheses[1].candidate, voxel_m))
+      << "but to the best";
+}
+
 TEST(CandidateLink, SwapSaysTheSameTheOtherWay) {
   Rng rng = make_stream(7, "link_search_test");
   CandidateLink link{4, 2, {}};

@@ -51,6 +51,18 @@ TEST(Judge, EachKindOfEvidenceCanRejectAlone) {
   EXPECT_FALSE(judge({}).accepted) << "no evidence";
 }
 
+TEST(Judge, WhatIsSeenThroughIsRejectedWhateverElseAgrees) {
+  EXPECT_TRUE(judge(good(), {1000, 10, 1000, 50}).accepted) << "noise, and what moved";
+  const Verdict through = judge(good(), {1000, 100, 0, 0}), behind = judge(good(), {0, 0, 1000, 400});
+  EXPECT_FALSE(through.accepted);
+  EXPECT_NE(through.reason.find("seen through walls: 10 %"), std::string::npos) << through.reason;
+  EXPECT_FALSE(behind.accepted);
+  EXPECT_NE(behind.reason.find("40 % was seen from opposite sides"), std::string::npos) << behind.reason;
+  AlignmentEvidence poor = good();
+  poor.overlap = 0.05;
+  EXPECT_FALSE(judge(poor, {1000, 0, 1000, 0}).accepted) << "nothing violated speaks for nothing";
+}
+
 TEST(VerificationAt, AllLengthsFollowTheResolution) {
   const VerificationOptions fine = verification_at(0.1), coarse = verification_at(100);
   EXPECT_NO_THROW(fine.validate());

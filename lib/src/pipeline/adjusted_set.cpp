@@ -12,7 +12,10 @@
 namespace tcm_icp {
 namespace {
 
-bool weaker(const AlignmentEvidence& a, const AlignmentEvidence& b) {
+bool weaker(const AdjustedSet& set, std::size_t i, std::size_t j) {
+  const FreeSpaceEvidence &free_i = set.free_space[i], &free_j = set.free_space[j];
+  if (free_i.vetoes() || free_j.vetoes()) return free_i.excess() > free_j.excess();
+  const AlignmentEvidence &a = *set.evidence[i], &b = *set.evidence[j];
   const bool linked = !std::isnan(a.link_log_odds) && !std::isnan(b.link_log_odds);
   return linked && a.link_log_odds != b.link_log_odds ? a.link_log_odds < b.link_log_odds
                                                       : a.consensus() < b.consensus();
@@ -30,10 +33,21 @@ double typical_residual_m(const AdjustedSet& set) {
   return *middle;
 }
 
+// A scan that joined a group by what the group's cloud says, while its links to members say little: asked for more,
+// like a pose that a wide search came up with. Free space takes away what contradicted a mirrored scan of a hall, and
+// leaves it one pose, with 0.67.
+constexpr double kMaxLeftByGroupAlone = 0.55;
+
+bool holds_by_group_alone(const AdjustedSet& set, std::size_t i) {
+  const double by_links = set.evidence[i]->link_log_odds - set.group_log_odds[i];
+  return set.group_log_odds[i] > 0 && by_links < kMinLinkLogOdds;
+}
+
 /// Fills in the evidence of all members; returns the weakest of those that fail.
 std::optional<std::size_t> verify_members(const std::vector<PreparedScan>& scans, const PoseGraph& graph,
                                           const RunContext& context, AdjustedSet& set) {
   context.report("verifying", 0, 1);
+  set.free_space = free_space_of_neighbors(scans, set.pairs, set.T_reference_scan, context.num_threads);
   parallel_for(context.num_threads, scans.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       if (!set.placed[i] || i == set.reference) continue;
@@ -50,14 +64,19 @@ std::optional<std::size_t> verify_members(const std::vector<PreparedScan>& scans
     }
   });
   const double typical_m = typical_residual_m(set);
+  std::vector<bool> by_group_alone(scans.size(), false);
   std::optional<std::size_t> worst;
   for (std::size_t i = 0; i < scans.size(); ++i) {
     if (!set.placed[i] || i == set.reference) continue;
+    by_group_alone[i] = holds_by_group_alone(set, i);
     set.evidence[i]->link_log_odds += misfit_log_odds(set.evidence[i]->median_residual_m, typical_m);
-    const Verdict verdict = judge(*set.evidence[i]);
+    Verdict verdict = judge(*set.evidence[i], set.free_space[i]);
+    if (verdict.accepted && by_group_alone[i] && set.evidence[i]->left_after_slide[0] > kMaxLeftByGroupAlone) {
+      verdict = {false, "ambiguous: no link to a single scan bears out its place in the group, and it slides"};
+    }
     set.reasons[i] = verdict.reason;
     if (verdict.accepted) continue;
-    if (!worst || weaker(*set.evidence[i], *set.evidence[*worst])) worst = i;
+    if (!worst || weaker(set, i, *worst)) worst = i;
   }
   return worst;
 }
@@ -101,6 +120,7 @@ AdjustedSet set_of_one(std::size_t scan, std::size_t num_scans) {
   set.placed[scan] = true;
   set.T_reference_scan.assign(num_scans, Eigen::Isometry3d::Identity());
   set.evidence.assign(num_scans, std::nullopt);
+  set.free_space.assign(num_scans, {});
   set.reasons.assign(num_scans, "no link to another scan was found");
   set.group_log_odds.assign(num_scans, 0);
   return set;

@@ -13,6 +13,7 @@
 #include "tcm_icp/core/run_context.hpp"
 #include "tcm_icp/pipeline/pipeline_options.hpp"
 #include "tcm_icp/pipeline/pipeline_result.hpp"
+#include "tcm_icp/visibility/free_space.hpp"
 
 namespace tcm_icp {
 
@@ -22,6 +23,7 @@ struct AdjustedSet {
   std::vector<bool> placed;
   std::vector<Eigen::Isometry3d> T_reference_scan;  ///< local frames
   std::vector<std::optional<AlignmentEvidence>> evidence;
+  std::vector<FreeSpaceEvidence> free_space;  ///< each against its neighbours, together
   std::vector<std::string> reasons;
   /// What the link to a group's cloud says of a scan that joined by it (group_joining.hpp), beside links between scans.
   std::vector<double> group_log_odds;
@@ -37,8 +39,8 @@ struct AdjustedSet {
 AdjustedSet set_of_one(std::size_t scan, std::size_t num_scans);
 
 /// Adjusts all poses jointly, then judges each against all its neighbours, and takes out one scan at a time, the one
-/// whose links speak least for it (or, without links, that agrees least), because a wrong neighbour spoils the evidence
-/// of right ones; again until all pass. What the
+/// that most is seen through, where that is too much, else the one whose links speak least for it (or, without links,
+/// that agrees least), because a wrong neighbour spoils the evidence of right ones; again until all pass. What the
 /// merges found out about other poses (runner_up, searched) stays true: `set.evidence` brings it. Where the user named
 /// no reference, the member with the most overlapping pairs becomes it, and the one before is judged like the others.
 void adjust_and_verify(const std::vector<PreparedScan>& scans, const PoseGraph& graph, const Resolutions& resolutions,

@@ -5,6 +5,7 @@
 
 #include "tcm_icp/core/parallel.hpp"
 #include "tcm_icp/registration/match_precision.hpp"
+#include "tcm_icp/visibility/free_space.hpp"
 
 namespace tcm_icp {
 namespace {
@@ -27,6 +28,24 @@ Cloud part_of(const Cloud& cloud, std::size_t which, std::size_t num_parts) {
   return out;
 }
 
+// A thin wall's other face is near, and its normal an axis of the same direction. A few such matches are chance, and
+// dropping them would bend the pose.
+void drop_opposed(const Sight& target, const Sight& source, const Eigen::Isometry3d& T_target_source,
+                  std::vector<Correspondence>& matches) {
+  if (!target.knows_sides() || !source.knows_sides()) return;
+  const Eigen::Isometry3d T_source_target = T_target_source.inverse();
+  std::vector<int> agreement;  // 1: the same side, -1: opposite ones, 0: not known
+  for (const Correspondence& m : matches) {
+    agreement.push_back(target.side(m.target, m.normal) *
+                        source.side(T_source_target * m.source, T_source_target.linear() * m.normal));
+  }
+  const auto opposed = std::count(agreement.begin(), agreement.end(), -1);
+  const auto known = opposed + std::count(agreement.begin(), agreement.end(), 1);
+  if (static_cast<double>(opposed) <= kMaxOpposedShare * static_cast<double>(known)) return;
+  std::size_t i = 0;
+  std::erase_if(matches, [&](const Correspondence&) { return agreement[i++] < 0; });
+}
+
 }  // namespace
 
 std::vector<JointLink> match_pairs(const std::vector<PreparedScan>& scans, const ScanPairs& pairs,
@@ -45,10 +64,12 @@ std::vector<JointLink> match_pairs(const std::vector<PreparedScan>& scans, const
     for (std::size_t k = begin; k < end; ++k) {
       JointLink& link = links[k];
       const Eigen::Isometry3d& T = T_reference_scan[link.target];
-      const Cloud source =
-          part_of(scans[link.source].fine_sample, scans[link.target].share, parts_for(num_neighbors[link.source]));
+      const PreparedScan &target = scans[link.target], &source = scans[link.source];
+      const Eigen::Isometry3d T_target_source = T.inverse() * T_reference_scan[link.source];
       link.matches =
-          find_correspondences(source, T.inverse() * T_reference_scan[link.source], scans[link.target].fine, gate);
+          find_correspondences(part_of(source.fine_sample, target.share, parts_for(num_neighbors[link.source])),
+                               T_target_source, target.fine, gate);
+      drop_opposed(target.sight, source.sight, T_target_source, link.matches);
       for (auto& m : link.matches) {
         m.source = T * m.source;
         m.target = T * m.target;

@@ -20,6 +20,9 @@ double rival_log_odds(double consensus, double rival_consensus);
 /// other evidence told from the real one had 4.8 times.
 double misfit_log_odds(double residual_m, double typical_residual_m);
 
+/// What a hypothesis has at the most where free space vetoes it: no pose to start from, whatever else speaks for it.
+constexpr double kVetoedLogOdds = -6;
+
 /// Links above this stand by themselves.
 constexpr double kClearLogOdds = 3;
 

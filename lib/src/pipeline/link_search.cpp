@@ -4,6 +4,7 @@
 
 #include "link_score.hpp"
 #include "pose_search.hpp"
+#include "scan_sight.hpp"
 #include "tcm_icp/core/even_sample.hpp"
 #include "tcm_icp/core/rigid_transform.hpp"
 #include "tcm_icp/registration/alignment_objective.hpp"
@@ -40,7 +41,7 @@ std::vector<PoseCandidate> screen(const PreparedScan& target, const PreparedScan
   }
   std::sort(ranks.begin(), ranks.end());
   std::vector<PoseCandidate> out;
-  for (std::size_t k = 0; k < std::min(kMaxFits, ranks.size()); ++k) out.push_back(candidates[ranks[k].index]);
+  for (const Rank& rank : ranks) out.push_back(candidates[rank.index]);
   return out;
 }
 
@@ -64,10 +65,12 @@ void CandidateLink::rank(const PointMoments& points_b, double voxel_m) {
   for (auto& h : hypotheses) {
     double rival = 0;
     for (const auto& other : hypotheses) {
+      if (other.free_space.vetoes()) continue;
       const double apart_m = rms_displacement(h.T_a_b.inverse() * other.T_a_b, points_b);
       if (apart_m >= kSameLinkPose * voxel_m) rival = std::max(rival, other.evidence.consensus());
     }
     h.log_odds = link_log_odds(h.evidence, h.candidate, voxel_m) + rival_log_odds(h.evidence.consensus(), rival);
+    if (h.free_space.vetoes()) h.log_odds = std::min(h.log_odds, kVetoedLogOdds);
   }
   std::stable_sort(hypotheses.begin(), hypotheses.end(),
                    [](const LinkHypothesis& x, const LinkHypothesis& y) { return x.log_odds > y.log_odds; });
@@ -95,7 +98,9 @@ CandidateLink fit_candidates(const std::vector<PreparedScan>& scans, std::size_t
   lp.final_gate_m = kLastGate * voxel_m;
   lp.gate_shrink = kGateShrink;
   lp.max_iterations = kMaxPrograms;
+  std::size_t fits_left = kMaxFits;
   for (const auto& candidate : screen(target, source, candidates)) {
+    if (fits_left-- == 0) break;
     const RegistrationResult fit = register_lp(sample, target.pyramid, candidate.T_target_source, lp);
     if (!fit.usable()) continue;
     const bool known = std::any_of(link.hypotheses.begin(), link.hypotheses.end(), [&](const auto& h) {
@@ -104,7 +109,12 @@ CandidateLink fit_candidates(const std::vector<PreparedScan>& scans, std::size_t
     if (known) continue;
     LinkHypothesis hypothesis{fit.T_target_source, candidate, evidence_of(target, source, fit.T_target_source), 0};
     hypothesis.log_odds = link_log_odds(hypothesis.evidence, candidate, voxel_m);
+    hypothesis.free_space = free_space(target, source, fit.T_target_source);
     link.hypotheses.push_back(hypothesis);
+    if (hypothesis.free_space.vetoes()) {
+      ++fits_left;
+      continue;
+    }
     if (hypothesis.log_odds >= kClearLogOdds) break;  // the others cannot beat it
   }
   link.rank(sample.points, voxel_m);

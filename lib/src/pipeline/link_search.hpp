@@ -11,6 +11,7 @@
 #include "tcm_icp/coarse/pose_candidate.hpp"
 #include "tcm_icp/core/rigid_transform.hpp"
 #include "tcm_icp/core/run_context.hpp"
+#include "tcm_icp/visibility/free_space.hpp"
 #include "verdict.hpp"
 
 namespace tcm_icp {
@@ -24,6 +25,7 @@ struct LinkHypothesis {
   PoseCandidate candidate;                                  ///< what the fit started from
   AlignmentEvidence evidence;                               ///< of the direction that overlaps more
   double log_odds = 0;                                      ///< that it is right, by the pair alone (link_score.hpp)
+  FreeSpaceEvidence free_space{};                           ///< may veto it
 };
 
 /// A pair of scans (a < b) that was tried, with the poses it may have, the likeliest first. Ambiguous pairs keep
@@ -46,7 +48,7 @@ struct CandidateLink {
 };
 
 /// Fits each coarse candidate of a pair by linear programs over a light sample and takes its evidence. Candidates that
-/// fit to the same pose are one hypothesis.
+/// fit to the same pose are one hypothesis. Where free space vetoes a pose, another one is tried.
 CandidateLink fit_candidates(const std::vector<PreparedScan>& scans, std::size_t a, std::size_t b,
                              const std::vector<PoseCandidate>& candidates, const PipelineOptions& options);
 

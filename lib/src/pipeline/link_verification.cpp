@@ -1,6 +1,7 @@
 #include "link_verification.hpp"
 
 #include "merged_cloud.hpp"
+#include "scan_sight.hpp"
 #include "tcm_icp/core/parallel.hpp"
 #include "verdict.hpp"
 
@@ -20,6 +21,23 @@ AlignmentEvidence verify_against_neighbors(const std::vector<PreparedScan>& scan
   if (!any) return {};
   return verify_alignment(scans[scan].held_out_sample, neighbors.level(), T_reference_scan[scan],
                           verification_at(voxel_m));
+}
+
+std::vector<FreeSpaceEvidence> free_space_of_neighbors(const std::vector<PreparedScan>& scans, const ScanPairs& pairs,
+                                                       const std::vector<Eigen::Isometry3d>& T_reference_scan,
+                                                       int num_threads) {
+  std::vector<FreeSpaceEvidence> of_pairs(pairs.size()), of_scans(scans.size());
+  parallel_for(num_threads, pairs.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      const auto [a, b] = pairs[k];
+      of_pairs[k] = free_space(scans[a], scans[b], T_reference_scan[a].inverse() * T_reference_scan[b]);
+    }
+  });
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    of_scans[pairs[k].first] += of_pairs[k];
+    of_scans[pairs[k].second] += of_pairs[k];
+  }
+  return of_scans;
 }
 
 std::vector<LinkRecord> verify_links(const std::vector<PreparedScan>& scans, const ScanPairs& pairs,
@@ -42,7 +60,8 @@ std::vector<LinkRecord> verify_links(const std::vector<PreparedScan>& scans, con
       links[k].evidence = b_in_a >= a_in_b
                               ? verify_alignment(scans[b].held_out_sample, level_a, T_a_b, options)
                               : verify_alignment(scans[a].held_out_sample, level_b, T_a_b.inverse(), options);
-      const Verdict verdict = judge(links[k].evidence);
+      links[k].free_space = free_space(scans[a], scans[b], T_a_b);
+      const Verdict verdict = judge(links[k].evidence, links[k].free_space);
       links[k].verdict = verdict.accepted ? "accepted" : "rejected";
       links[k].reason = verdict.reason;
     }

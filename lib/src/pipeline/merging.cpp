@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "placement.hpp"
+#include "scan_sight.hpp"
 #include "tcm_icp/core/parallel.hpp"
 #include "tcm_icp/core/random.hpp"
 #include "tcm_icp/graph/correspondence_measure.hpp"
@@ -145,6 +146,16 @@ std::size_t Merging::choose_next(const std::vector<Choice>& choices, const std::
   return choices[best].scan;
 }
 
+// Against the merged scans it was compared with: those it may share something with.
+FreeSpaceEvidence Merging::free_space_at(std::size_t scan, const Eigen::Isometry3d& T) const {
+  FreeSpaceEvidence sum;
+  for (std::size_t i = 0; i < in_.scans.size(); ++i) {
+    if (!placed_[i] || !in_.graph.links().contains({std::min(i, scan), std::max(i, scan)})) continue;
+    sum += free_space(in_.scans[i], in_.scans[scan], T_reference_scan_[i].inverse() * T);
+  }
+  return sum;
+}
+
 // The fit, or a better pose nearby, may have left what the links lead to. Links that say little of a guess are not held
 // against it; those that clearly lead elsewhere are.
 void Merging::ask_links(const Choice& choice, const Eigen::Isometry3d& T, MergeRecord& record) {
@@ -155,7 +166,7 @@ void Merging::ask_links(const Choice& choice, const Eigen::Isometry3d& T, MergeR
   if (choice.by_guess && std::abs(support.log_odds) < kMinLinkLogOdds) return;
   record.evidence->link_log_odds = support.log_odds;
   record.evidence->num_links = support.num_links;
-  const Verdict verdict = judge(*record.evidence);
+  const Verdict verdict = judge(*record.evidence, free_space_at(scan, T));
   record.accepted = verdict.accepted;
   record.reason = verdict.reason;
 }
@@ -173,8 +184,9 @@ void Merging::merge(const Choice& choice, const TcmTerms& terms, std::vector<Mer
   if (paper) {
     T = place_scan_as_printed(in_.scans[q], target_, T_first, in_.options, rng, record);
   } else {
-    T = choice.by_guess ? place_scan(in_.scans[q], target_, T_first, in_.options, rng, record)
-                        : place_linked_scan(in_.scans[q], target_, choice.starts, in_.options, rng, record);
+    const FreeSpaceCheck check = [&](const Eigen::Isometry3d& pose) { return free_space_at(q, pose); };
+    T = choice.by_guess ? place_scan(in_.scans[q], target_, T_first, in_.options, rng, record, check)
+                        : place_linked_scan(in_.scans[q], target_, choice.starts, in_.options, rng, record, check);
     ask_links(choice, T, record);
   }
   if (choice.by_guess) {

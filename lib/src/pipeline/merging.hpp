@@ -56,6 +56,7 @@ class Merging {
   std::size_t choose_next(const std::vector<Choice>& choices, const std::vector<MergeCandidate>& candidates);
   void compute_tcm(const std::vector<Choice>& choices, std::vector<MergeCandidate>& candidates);
   void merge(const Choice& choice, const TcmTerms& terms, std::vector<MergeRecord>& records);
+  FreeSpaceEvidence free_space_at(std::size_t scan, const Eigen::Isometry3d& T) const;
   void ask_links(const Choice& choice, const Eigen::Isometry3d& T, MergeRecord& record);
   Eigen::Isometry3d guess(std::size_t scan) const;
   double same_m() const { return kSameLinkPose * target_.level(0).voxel_size_m; }

@@ -50,6 +50,8 @@ void restore_order(const std::vector<std::size_t>& order, PipelineResult& result
   restore(order, result.scans);
   restore(order, result.poses);
   restore(order, result.evidence);
+  restore(order, result.free_space);
+  restore(order, result.viewpoints);
   restore_graph(order, result.graph);
   restore(order, result.uncertainty.poses);
   for (MergeRecord& record : result.merges) {

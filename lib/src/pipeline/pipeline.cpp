@@ -12,6 +12,7 @@
 #include "name_order.hpp"
 #include "pair_search.hpp"
 #include "scan_set.hpp"
+#include "scan_sight.hpp"
 #include "stage_clock.hpp"
 #include "tcm_icp/core/error.hpp"
 #include "tcm_icp/core/rigid_transform.hpp"
@@ -19,6 +20,11 @@
 
 namespace tcm_icp {
 namespace {
+
+void move(Viewpoint& viewpoint, const Eigen::Vector3d& by) {
+  viewpoint.place += by;
+  for (auto& p : viewpoint.alternatives) p += by;
+}
 
 class Run {
  public:
@@ -56,7 +62,12 @@ class Run {
     result_.coarse_voxel_m = resolutions_.coarse_m;
     result_.fine_voxel_m = resolutions_.fine_m;
     T_init_ = initial_local_poses(initial_poses, sampled_, paper());
+    if (!paper()) result_.viewpoints = find_viewpoints(sampled_, context_);
     scans_ = prepare_scans(sampled_, resolutions_, options_.placement, context_);
+    if (!paper()) make_sights(result_.viewpoints, context_, scans_);
+    for (std::size_t i = 0; i < result_.viewpoints.size(); ++i) {
+      if (result_.viewpoints[i]) move(*result_.viewpoints[i], sampled_[i].scan.origin);
+    }
   }
 
   // Which scans lie near which: by links found without any guess, and by the guesses where all scans have one. Links
@@ -202,6 +213,7 @@ class Run {
       pose.file = files_[i];
       pose.reason = set.reasons[i];
       result_.evidence[i] = set.evidence[i];
+      result_.free_space.push_back(set.free_space[i]);
       // Raw coordinates to the reference's raw coordinates: both local origins are put back.
       const Eigen::Isometry3d T = Eigen::Translation3d(sampled_[set.reference].scan.origin) * set.T_reference_scan[i] *
                                   Eigen::Translation3d(-sampled_[i].scan.origin);
@@ -253,7 +265,7 @@ class Run {
       const auto both = std::find_if(components_.begin(), components_.end(),
                                      [a = a, b = b](const AdjustedSet& set) { return set.placed[a] && set.placed[b]; });
       for (const auto& h : link.hypotheses) {
-        LinkHypothesisRecord record{a, b, {}, h.candidate, h.evidence, h.log_odds, link.trust, "open"};
+        LinkHypothesisRecord record{a, b, {}, h.candidate, h.evidence, h.free_space, h.log_odds, link.trust, "open"};
         record.T_a_b =
             Eigen::Translation3d(sampled_[a].scan.origin) * h.T_a_b * Eigen::Translation3d(-sampled_[b].scan.origin);
         if (both != components_.end()) {

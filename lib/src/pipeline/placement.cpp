@@ -59,7 +59,7 @@ Eigen::Isometry3d finish(Placer& placer, PlacementCandidate& best, const Eigen::
   record.evidence = placer.verify(best.fit.T_target_source);
   record.evidence->runner_up = best.evidence.runner_up;
   record.evidence->searched = record.searched;
-  const Verdict verdict = judge(*record.evidence);
+  const Verdict verdict = placer.judge_at(best.fit.T_target_source, *record.evidence);
   record.accepted = verdict.accepted;
   record.reason = verdict.reason;
   return best.fit.T_target_source;
@@ -69,10 +69,10 @@ Eigen::Isometry3d finish(Placer& placer, PlacementCandidate& best, const Eigen::
 
 Eigen::Isometry3d place_linked_scan(const PreparedScan& scan, const ScanPyramid& merged,
                                     const std::vector<StartPose>& starts, const PipelineOptions& options, Rng& rng,
-                                    MergeRecord& record) {
+                                    MergeRecord& record, const FreeSpaceCheck& free_space) {
   const Eigen::Isometry3d& T_first = starts.front().T_reference_scan;
   if (too_small(scan, record)) return T_first;
-  Placer placer(scan, merged, options);
+  Placer placer(scan, merged, options, free_space);
   PlacementCandidate best;
   for (std::size_t k = 0; k < std::min(starts.size(), kMaxStarts); ++k) {
     if (best.verdict.accepted && starts[k].log_odds < starts[0].log_odds - kClearLead) break;
@@ -83,9 +83,10 @@ Eigen::Isometry3d place_linked_scan(const PreparedScan& scan, const ScanPyramid&
 }
 
 Eigen::Isometry3d place_scan(const PreparedScan& scan, const ScanPyramid& merged, const Eigen::Isometry3d& T_init,
-                             const PipelineOptions& options, Rng& rng, MergeRecord& record) {
+                             const PipelineOptions& options, Rng& rng, MergeRecord& record,
+                             const FreeSpaceCheck& free_space) {
   if (too_small(scan, record)) return T_init;
-  Placer placer(scan, merged, options);
+  Placer placer(scan, merged, options, free_space);
   PlacementCandidate best = placer.fit_from(T_init, kGateLadder);
   if (!best.verdict.accepted && options.placement.search_steps > 0) {
     record.searched = true;

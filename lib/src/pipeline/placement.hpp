@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 
+#include "placer.hpp"
 #include "pose_graph.hpp"
 #include "prepared_scan.hpp"
 #include "tcm_icp/core/random.hpp"
@@ -17,16 +18,18 @@ namespace tcm_icp {
 /// initial guess is; the first that passes verification ends the turn, otherwise the one with the largest consensus
 /// counts. If none passes, shifts of the initial guess are tried, then annealing searches from it, and the programs
 /// start again from what it finds. Then other poses nearby are tried (pose_search.hpp): the largest consensus wins, and
-/// a close runner-up makes the pose ambiguous.
+/// a close runner-up makes the pose ambiguous. A pose that `free_space` vetoes does not pass; as another pose it
+/// counts.
 Eigen::Isometry3d place_scan(const PreparedScan& scan, const ScanPyramid& merged, const Eigen::Isometry3d& T_init,
-                             const PipelineOptions& options, Rng& rng, MergeRecord& record);
+                             const PipelineOptions& options, Rng& rng, MergeRecord& record,
+                             const FreeSpaceCheck& free_space = {});
 
 /// The same from poses that links lead to, in their order: the fits start near, from gates of 4 and 8 voxels; up to
 /// three of them are tried, fewer where one passes and the next ones' links say clearly less. No search beyond other
 /// poses nearby.
 Eigen::Isometry3d place_linked_scan(const PreparedScan& scan, const ScanPyramid& merged,
                                     const std::vector<StartPose>& starts, const PipelineOptions& options, Rng& rng,
-                                    MergeRecord& record);
+                                    MergeRecord& record, const FreeSpaceCheck& free_space = {});
 
 /// The paper's way: simplex over all nearest neighbours in 12 entries, descent and annealing on tau, no verification.
 Eigen::Isometry3d place_scan_as_printed(const PreparedScan& scan, const ScanPyramid& merged,

@@ -32,16 +32,27 @@ bool better(const PlacementCandidate& a, const PlacementCandidate& b) {
   return a.evidence.consensus() > b.evidence.consensus();
 }
 
-Placer::Placer(const PreparedScan& scan, const ScanPyramid& merged, const PipelineOptions& options)
+Placer::Placer(const PreparedScan& scan, const ScanPyramid& merged, const PipelineOptions& options,
+               const FreeSpaceCheck& free_space)
     : scan_(scan),
       merged_(merged),
       options_(options),
+      free_space_(free_space),
       voxel_m_(merged.level(0).voxel_size_m),
       coarse_look_(even_sample(scan.coarse_sample, scan.coarse_sample.size() / kLookPart)),
       fine_look_(even_sample(scan.fit_sample, scan.fit_sample.size() / kLookPart)) {}
 
 AlignmentEvidence Placer::verify(const Eigen::Isometry3d& T) const {
   return verify_alignment(scan_.held_out_sample, merged_.level(0), T, verification_at(voxel_m_));
+}
+
+Verdict Placer::judge_at(const Eigen::Isometry3d& T, const AlignmentEvidence& evidence) const {
+  const Verdict verdict = judge(evidence);
+  return verdict.accepted && free_space_ ? judge(evidence, free_space_(T)) : verdict;
+}
+
+bool Placer::vetoed(const PlacementCandidate& candidate) const {
+  return free_space_ && free_space_(candidate.fit.T_target_source).vetoes();
 }
 
 PlacementCandidate Placer::fit_from(const Eigen::Isometry3d& T_init, std::span<const double> gates) {
@@ -63,7 +74,7 @@ void Placer::try_shifts(const Eigen::Isometry3d& T_init, double gate_in_voxels, 
 
 void Placer::explore(PlacementCandidate& best) {
   double runner_up = 0;
-  bool changed = true;
+  bool changed = true, best_vetoed = vetoed(best);
   for (int round = 0; changed && round < kMaxExplorations; ++round) {
     changed = false;
     const Eigen::Isometry3d T_round = best.fit.T_target_source;
@@ -71,10 +82,11 @@ void Placer::explore(PlacementCandidate& best) {
       const PlacementCandidate other = look_at(T, best);
       if (!other.found || same_pose(other, best)) continue;
       const double mine = best.evidence.consensus(), others = other.evidence.consensus();
-      if (others > mine) {
+      const bool wins = others > mine || (best_vetoed && others > kPromisingShare * mine);
+      if (wins && !vetoed(other)) {
         runner_up = mine / others;
         best = other;
-        changed = true;
+        changed = true, best_vetoed = false;
       } else if (mine > 0) {
         runner_up = std::max(runner_up, others / mine);
       }
@@ -115,7 +127,7 @@ PlacementCandidate Placer::fit_and_verify(const Eigen::Isometry3d& T_init, doubl
   candidate.found = candidate.fit.usable();
   if (!candidate.found) return candidate;
   candidate.evidence = verify(candidate.fit.T_target_source);
-  candidate.verdict = judge(candidate.evidence);
+  candidate.verdict = judge_at(candidate.fit.T_target_source, candidate.evidence);
   return candidate;
 }
 

@@ -9,6 +9,7 @@
 #include "tcm_icp/core/rigid_transform.hpp"
 #include "tcm_icp/registration/scan_pyramid.hpp"
 #include "tcm_icp/tcm/robust_tcm.hpp"
+#include "tcm_icp/visibility/sight.hpp"
 
 namespace tcm_icp {
 
@@ -30,6 +31,7 @@ struct PreparedScan {
   /// Which of its neighbours' points it is adjusted with: from its file's name, so that the order of the files decides
   /// nothing.
   std::size_t share = 0;
+  Sight sight{};  ///< none until make_sights(); groups of scans have none
 };
 
 /// The median over the scans of the voxel edge at which a scan has the wanted number of voxels.

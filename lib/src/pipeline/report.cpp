@@ -146,6 +146,10 @@ Json report_object(const PipelineResult& result, const PipelineOptions& options,
     report["scans"][i]["component"] = result.poses[i].component;
     report["scans"][i]["middle_m"] = middle_json(result.poses[i], result.scans[i]);
     report["scans"][i]["evidence"] = result.evidence[i] ? to_json(*result.evidence[i]) : Json(nullptr);
+    if (!result.viewpoints.empty()) {
+      report["scans"][i]["viewpoint"] = result.viewpoints[i] ? to_json(*result.viewpoints[i]) : Json(nullptr);
+      report["scans"][i]["free_space"] = to_json(result.free_space[i]);
+    }
     if (!result.uncertainty.poses.empty()) {
       report["scans"][i]["uncertainty"] = to_json(result.uncertainty.poses[i], origin);
     }
@@ -161,7 +165,8 @@ Json report_object(const PipelineResult& result, const PipelineOptions& options,
                                {"b", result.scans[l.b].file},
                                {"verdict", l.verdict},
                                {"reason", l.reason},
-                               {"evidence", to_json(l.evidence)}});
+                               {"evidence", to_json(l.evidence)},
+                               {"free_space", to_json(l.free_space)}});
     if (l.strength) report["links"].back()["strength"] = to_json(*l.strength, origin);
   }
   report["hypotheses"] = Json::array();
@@ -176,7 +181,8 @@ Json report_object(const PipelineResult& result, const PipelineOptions& options,
          {"log_odds", h.log_odds},
          {"trust", h.trust},
          {"fate", h.fate},
-         {"evidence", to_json(h.evidence)}});
+         {"evidence", to_json(h.evidence)},
+         {"free_space", to_json(h.free_space)}});
   }
   for (const auto& s : result.stages) {
     report["stages"].push_back({{"name", s.name}, {"seconds", s.seconds}, {"peak_memory_mb", s.peak_memory_mb}});

@@ -33,6 +33,8 @@ const char* name_of(OutlierMethod method);
 const char* name_of(LpFormulation formulation);
 const char* name_of(MergeOrder order);
 Json to_json(const ScanSummary& scan);
+Json to_json(const FreeSpaceEvidence& evidence);
+Json to_json(const Viewpoint& viewpoint);
 Json to_json(const LpFigures& lp);
 Json to_json(const CorrespondenceGraph& graph, std::size_t reference, const std::vector<ScanSummary>& scans);
 

@@ -37,7 +37,7 @@ VerificationOptions verification_at(double voxel_m) {
   return options;
 }
 
-Verdict judge(const AlignmentEvidence& evidence) {
+Verdict judge(const AlignmentEvidence& evidence, const FreeSpaceEvidence& free_space) {
   const double agreeing = evidence.consensus() * static_cast<double>(evidence.num_points);
   if (agreeing < static_cast<double>(kMinAgreeing) || evidence.consensus() < kMinConsensus) {
     return {false, "only " + percent(evidence.consensus()) + " of the points agree with the other scans"};
@@ -57,6 +57,11 @@ Verdict judge(const AlignmentEvidence& evidence) {
   if (evidence.left_after_slide[0] > max_left) {
     return {false, "ambiguous: moved along its weakest direction, it still agrees at " +
                        percent(evidence.left_after_slide[0]) + " of as many points"};
+  }
+  if (free_space.vetoes()) {
+    return {false, "seen through walls: " + percent(free_space.violation_share()) +
+                       " of what it and its neighbours share lies before surfaces the other saw, " +
+                       percent(free_space.opposed_share()) + " was seen from opposite sides"};
   }
   return {true, percent(evidence.consensus()) + " of the points agree; " + percent(evidence.left_after_slide[0]) +
                     " of that is left when it slides along its weakest direction"};

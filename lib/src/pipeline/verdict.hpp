@@ -4,6 +4,7 @@
 #include <string>
 
 #include "tcm_icp/registration/verification.hpp"
+#include "tcm_icp/visibility/free_space.hpp"
 
 namespace tcm_icp {
 
@@ -19,6 +20,7 @@ struct Verdict {
   std::string reason;
 };
 
-Verdict judge(const AlignmentEvidence& evidence);
+/// @param free_space  of the same pose, where it was looked at
+Verdict judge(const AlignmentEvidence& evidence, const FreeSpaceEvidence& free_space = {});
 
 }  // namespace tcm_icp

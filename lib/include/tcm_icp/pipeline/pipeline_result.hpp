@@ -20,6 +20,8 @@
 #include "tcm_icp/registration/registration_result.hpp"
 #include "tcm_icp/registration/verification.hpp"
 #include "tcm_icp/tcm/tcm.hpp"
+#include "tcm_icp/visibility/free_space.hpp"
+#include "tcm_icp/visibility/viewpoint.hpp"
 
 namespace tcm_icp {
 
@@ -57,6 +59,7 @@ struct MergeRecord {
 struct LinkRecord {
   std::size_t a = 0, b = 0;    ///< the file of a comes first by name
   AlignmentEvidence evidence;  ///< of the direction that overlaps more
+  FreeSpaceEvidence free_space;
   std::string verdict, reason;
   std::optional<LinkStrength> strength;  ///< in the reference's local frame; robust profile only
 };
@@ -79,6 +82,7 @@ struct LinkHypothesisRecord {
   Eigen::Isometry3d T_a_b = Eigen::Isometry3d::Identity();  ///< for raw coordinates
   PoseCandidate candidate;                                  ///< the coarse pose it came from; local frames
   AlignmentEvidence evidence;                               ///< of the pair alone
+  FreeSpaceEvidence free_space;
   double log_odds = 0;                                      ///< that it is right, by the pair alone
   double trust = 1;                                         ///< 0..1; how far loops of links bear that out
   std::string fate;  ///< confirmed or contradicted by the final poses; open where no group has both scans
@@ -98,6 +102,9 @@ struct PipelineResult {
   /// Of each scan's final pose against all its neighbours; for a scan that is not registered, of its last attempt.
   /// Nothing for the reference, and in the paper profile.
   std::vector<std::optional<AlignmentEvidence>> evidence;
+  std::vector<FreeSpaceEvidence> free_space;  ///< of the same poses, against the neighbours together
+  /// Of each scan, in raw coordinates; not looked for in the paper profile.
+  std::vector<std::optional<Viewpoint>> viewpoints;
   CorrespondenceGraph graph;
   std::vector<MergeRecord> merges;
   AdjustmentRecord adjustment;   ///< of the reference's group; robust profile only

@@ -1,0 +1,37 @@
+#include "scan_sight.hpp"
+
+#include <array>
+
+#include "tcm_icp/core/parallel.hpp"
+#include "tcm_icp/core/random.hpp"
+
+namespace tcm_icp {
+
+std::vector<std::optional<Viewpoint>> find_viewpoints(const std::vector<SampledScan>& scans,
+                                                      const RunContext& context) {
+  context.report("finding viewpoints", 0, scans.size());
+  std::vector<std::optional<Viewpoint>> out(scans.size());
+  parallel_for(context.num_threads, scans.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Scan& scan = scans[i].scan;
+      Rng rng = make_stream(context.seed, "viewpoint", scan.file);
+      out[i] = find_viewpoint(scan.cloud, std::array{Eigen::Vector3d(-scan.origin)}, rng);
+    }
+  });
+  return out;
+}
+
+void make_sights(const std::vector<std::optional<Viewpoint>>& viewpoints, const RunContext& context,
+                 std::vector<PreparedScan>& scans) {
+  parallel_for(context.num_threads, scans.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      scans[i].sight = make_sight(viewpoints[i], scans[i].fine.cloud.points, scans[i].pyramid.level(0).cloud);
+    }
+  });
+}
+
+FreeSpaceEvidence free_space(const PreparedScan& a, const PreparedScan& b, const Eigen::Isometry3d& T_a_b) {
+  return measure_free_space({a.pyramid.level(0), a.sight}, {b.pyramid.level(0), b.sight}, T_a_b);
+}
+
+}  // namespace tcm_icp

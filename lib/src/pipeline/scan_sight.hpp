@@ -1,0 +1,26 @@
+#pragma once
+// Where the scans of a set were taken from, and what that says of poses.
+
+#include <Eigen/Geometry>
+#include <optional>
+#include <vector>
+
+#include "prepared_scan.hpp"
+#include "tcm_icp/core/run_context.hpp"
+#include "tcm_icp/visibility/free_space.hpp"
+#include "tcm_icp/visibility/viewpoint.hpp"
+
+namespace tcm_icp {
+
+/// Of each scan, in its local frame; while the working clouds are there. The origin of the file is one of the places to
+/// start from: a raw scan's origin is its scanner. Reports "finding viewpoints". @throws Cancelled
+std::vector<std::optional<Viewpoint>> find_viewpoints(const std::vector<SampledScan>& scans, const RunContext& context);
+
+/// Gives the prepared scans their sight.
+void make_sights(const std::vector<std::optional<Viewpoint>>& viewpoints, const RunContext& context,
+                 std::vector<PreparedScan>& scans);
+
+/// measure_free_space() of a pair. Counts are 0 where neither has a viewpoint.
+FreeSpaceEvidence free_space(const PreparedScan& a, const PreparedScan& b, const Eigen::Isometry3d& T_a_b);
+
+}  // namespace tcm_icp
