@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "report_parts.hpp"
+#include "report/report_parts.hpp"
 #include "scan_set.hpp"
 #include "tcm_icp/core/error.hpp"
 #include "tcm_icp/core/parallel.hpp"

@@ -2,7 +2,7 @@
 
 #include <fstream>
 
-#include "report_html.hpp"
+#include "report/report_html.hpp"
 #include "stage_clock.hpp"
 #include "tcm_icp/core/error.hpp"
 #include "tcm_icp/core/parallel.hpp"

@@ -1,4 +1,4 @@
-#include "pipeline/report_html.hpp"
+#include "report/report_html.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "pipeline/report_html_text.hpp"
+#include "report/report_html_text.hpp"
 
 #include <gtest/gtest.h>
 

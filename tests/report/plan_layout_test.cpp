@@ -1,4 +1,4 @@
-#include "pipeline/plan_layout.hpp"
+#include "report/plan_layout.hpp"
 
 #include <gtest/gtest.h>
 
