@@ -22,7 +22,7 @@ struct Placement {
 };
 
 Placement place(const PreparedScene& s, double angle_rad, double shift_m, std::uint64_t seed,
-                const PipelineOptions& options = {}) {
+                const PipelineOptions& options = {}, const FreeSpaceCheck& free_space = {}) {
   MergedCloud merged(s.resolutions.coarse_m);
   merged.add(s.scans[0].pyramid.level(0).cloud, Isometry3d::Identity());
   Rng rng = make_stream(seed, "placement_test");
@@ -30,8 +30,10 @@ Placement place(const PreparedScene& s, double angle_rad, double shift_m, std::u
   p.truth = s.scene.T_target_source(0, 1);
   const Points& points = s.scene.scans[1].points;
   p.start = testing::perturbed(p.truth, points, angle_rad, shift_m, rng);
-  const auto way = options.profile == Profile::kPaper ? place_scan_as_printed : place_scan;
-  p.found = way(s.scans[1], merged.pyramid(), p.start, options, rng, p.record);
+  const ScanPyramid target = merged.pyramid();
+  p.found = options.profile == Profile::kPaper
+                ? place_scan_as_printed(s.scans[1], target, p.start, options, rng, p.record)
+                : place_scan(s.scans[1], target, p.start, options, rng, p.record, free_space);
   p.start_error_m = testing::pose_rmse_m(p.truth, p.start, points);
   p.error_m = testing::pose_rmse_m(p.truth, p.found, points);
   return p;
@@ -58,6 +60,18 @@ TEST(PlaceScan, FindsAndAcceptsThePoseFromARoughGuess) {
     EXPECT_GT(p.record.simplex.lp.num_pivots, 0);
     EXPECT_LE(p.record.simplex.lp.relative_duality_gap, 1e-7);
   }
+}
+
+TEST(PlaceScan, APoseThatFreeSpaceVetoesDoesNotPass) {
+  const PreparedScene s = scene({.points_per_scan = 6000, .range_m = 16, .noise_m = 0.02}, 1);
+  PipelineOptions options;
+  options.placement.search_steps = 0;
+  const auto seen_through = [](const Isometry3d&) { return FreeSpaceEvidence{1000, 500, 0, 0}; };
+  const auto clear = [](const Isometry3d&) { return FreeSpaceEvidence{1000, 0, 0, 0}; };
+  ASSERT_TRUE(place(s, 0.02, 0.2, 1, options, clear).record.accepted);
+  const Placement vetoed = place(s, 0.02, 0.2, 1, options, seen_through);
+  EXPECT_FALSE(vetoed.record.accepted);
+  EXPECT_NE(vetoed.record.reason.find("seen through walls"), std::string::npos) << vetoed.record.reason;
 }
 
 TEST(PlaceScan, RefinementRunsAsAskedFor) {

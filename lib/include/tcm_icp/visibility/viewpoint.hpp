@@ -29,9 +29,10 @@ struct Viewpoint {
 /// them with narrower bins of directions and more points. All lengths are shares of the middle edge, all directions
 /// those of the points' principal axes, so that units and frames do not matter but for rounding.
 /// @param cloud    with normals; points without are not looked at
-/// @param guesses  places to start from beside the grid, such as the origin of the file; those outside of the box are left out
+/// @param guesses  places to start from beside the grid, such as the origin of the file; those outside of the box do
+///                 not count
 /// @return         nothing where fewer than 200 points have a normal, or they lie on a line
-/// Cost: 20 to 60 ms, whatever the number of points.
+/// Cost: 50 to 150 ms, whatever the number of points.
 std::optional<Viewpoint> find_viewpoint(const Cloud& cloud, std::span<const Eigen::Vector3d> guesses, Rng& rng);
 
 }  // namespace tcm_icp
