@@ -83,9 +83,9 @@ struct LinkHypothesisRecord {
   PoseCandidate candidate;                                  ///< the coarse pose it came from; local frames
   AlignmentEvidence evidence;                               ///< of the pair alone
   FreeSpaceEvidence free_space;
-  double log_odds = 0;                                      ///< that it is right, by the pair alone
-  double trust = 1;                                         ///< 0..1; how far loops of links bear that out
-  std::string fate;  ///< confirmed or contradicted by the final poses; open where no group has both scans
+  double log_odds = 0;  ///< that it is right, by the pair alone
+  double trust = 1;     ///< 0..1; how far loops of links bear that out
+  std::string fate;     ///< confirmed or contradicted by the final poses; open where no group has both scans
 };
 
 struct StageRecord {
