@@ -15,9 +15,9 @@ constexpr double kGateInVoxels = 2;
 
 using ScanPairs = std::vector<std::pair<std::size_t, std::size_t>>;
 
-/// Both directions of every pair at the fine resolution, in the pairs' order. A source with up to three neighbours shows
-/// each its whole sample, one with up to six a half, others a third, and not the same part to each. Points of opposite
-/// sides of a wall do not match, where scans know which they saw. One nearest-neighbour query a point.
+/// Both directions of every pair at the fine resolution, in the pairs' order. A source with up to three neighbours
+/// shows each its whole sample, one with up to six a half, others a third, and not the same part to each. Points of
+/// opposite sides of a wall do not match, where scans know which they saw. One nearest-neighbour query a point.
 std::vector<JointLink> match_pairs(const std::vector<PreparedScan>& scans, const ScanPairs& pairs,
                                    const std::vector<Eigen::Isometry3d>& T_reference_scan, double max_distance_m,
                                    int num_threads);
