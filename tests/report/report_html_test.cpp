@@ -41,8 +41,8 @@ PipelineResult three_of_four() {
   result.uncertainty.poses[1].covariance = 1e-6 * Eigen::Matrix<double, 6, 6>::Identity();
   result.graph.measure = Eigen::MatrixXd::Zero(4, 4);
   result.graph.adjacency.resize(4);
-  result.links.push_back({0, 1, {}, "accepted", "agrees", LinkStrength{}});
-  result.links.push_back({1, 2, {}, "rejected", "only 1 % agree", {}});
+  result.links.push_back({0, 1, {}, {}, "accepted", "agrees", LinkStrength{}});
+  result.links.push_back({1, 2, {}, {}, "rejected", "only 1 % agree", {}});
   LinkHypothesisRecord contradicted;
   contradicted.a = 0;
   contradicted.b = 2;
