@@ -185,7 +185,7 @@ def main():
     ap.add_argument("--conventional-exe", type=Path, help="for ICP and features, where --exe was built without PCL")
     ap.add_argument("--methods", nargs="+", choices=list(BY_KEY), help="run these only; the others' finished cells count")
     ap.add_argument("--seeds", type=int, nargs="+", help="in place of 1 to 5, or 1 with --quick")
-    ap.add_argument("--levels", type=int, nargs="+", help="of the curves [%%], in place of 10 to 50, or 20 and 40 with --quick")
+    ap.add_argument("--levels", type=int, nargs="+", help="of the curves [%%], in place of 10, 30, 50, or 20 and 40 with --quick")
     ap.add_argument("--jobs", type=int, help="runs at a time: 1, or 2 with --quick; more than the idle cores disturb the times")
     ap.add_argument("--draw-only", action="store_true", help="tables and figures of the cells that are there")
     options = ap.parse_args()

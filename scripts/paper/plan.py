@@ -26,7 +26,7 @@ class Extent:
 ROUGH_POSES = ("--initial-guess", "5", "1")
 # Four scans of a return in 0.2 m: ICP and features try all pairs, so that whole streets of 60 scans would take them days.
 FULL_SCENES = ("--scans", "4", "--thinning", "0.2")
-FULL = Extent("full", (1, 2, 3, 4, 5), (10, 20, 30, 40, 50), (), (*FULL_SCENES, *ROUGH_POSES), 1200)
+FULL = Extent("full", (1, 2, 3, 4, 5), (10, 30, 50), (), (*FULL_SCENES, *ROUGH_POSES), 1200)
 
 
 def cells(data_sets, curve_sets, extent, methods=METHODS):
