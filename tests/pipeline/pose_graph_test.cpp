@@ -115,6 +115,25 @@ TEST_F(PoseGraphTest, WhereNoLoopClosesNothingIsBelieved) {
   }
 }
 
+// Links that free space could have vetoed stand, where links that it said nothing of contradict them.
+TEST_F(PoseGraphTest, LinksThatPassedFreeSpaceAreNotContradictedByOthers) {
+  const std::vector<PointMoments> points(5, PointMoments(points_));
+  const auto judged = [&](std::size_t a, std::size_t b) {
+    LinkHypothesis h = hypothesis(a, b, 8);
+    h.free_space.num_points = 1000;
+    return h;
+  };
+  add(0, 1, {judged(0, 1)});
+  add(1, 2, {judged(1, 2)});
+  add(0, 2, {hypothesis(0, 2, 8, 9)});
+  add(2, 3, {hypothesis(2, 3, 8)});
+  graph_.weigh_by_loops(points, kSame_m);
+  EXPECT_EQ(graph_.links().at({0, 1}).trust, 1);
+  EXPECT_EQ(graph_.links().at({1, 2}).trust, 1);
+  EXPECT_EQ(graph_.links().at({0, 2}).trust, 0);
+  EXPECT_LT(graph_.links().at({2, 3}).trust, 1) << "as its set, none of whose loops closes";
+}
+
 // The same link serves both of its scans: T_a_b one way, its inverse the other.
 TEST_F(PoseGraphTest, EitherScanOfALinkCanBePlacedByTheOther) {
   add(1, 3, {hypothesis(1, 3, 4)});

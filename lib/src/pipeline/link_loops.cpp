@@ -43,33 +43,34 @@ std::map<Pair, Tally> count(const std::vector<Loop>& loops) {
   return tallies;
 }
 
-}  // namespace
-
-void PoseGraph::weigh_by_loops(const std::vector<PointMoments>& points, double same_m) {
-  std::map<Pair, const LinkHypothesis*> clear;
-  for (const auto& [pair, link] : links_) {
-    if (!link.hypotheses.empty() && link.hypotheses.front().log_odds >= kClearLogOdds) {
-      clear[pair] = &link.hypotheses.front();
-    }
-  }
+// The loops of three clear links, each by its likeliest pose.
+std::vector<Loop> find_loops(const std::map<Pair, const LinkHypothesis*>& clear, std::size_t num_scans,
+                             const std::vector<PointMoments>& points, double same_m) {
   std::vector<Loop> loops;
   for (const auto& [pair, ab] : clear) {
     const auto [a, b] = pair;
-    for (std::size_t c = b + 1; c < num_scans_; ++c) {
+    for (std::size_t c = b + 1; c < num_scans; ++c) {
       const auto ac = clear.find({a, c}), bc = clear.find({b, c});
       if (ac == clear.end() || bc == clear.end()) continue;
       const Eigen::Isometry3d around = ac->second->T_a_b.inverse() * ab->T_a_b * bc->second->T_a_b;
       loops.push_back({{pair, ac->first, bc->first}, rms_displacement(around, points[c]) < kClosedWithin * same_m});
     }
   }
+  return loops;
+}
+
+// Trust of the links that `is_weighed`, by their loops. The worst goes first, with its loops: what it contradicted may
+// be right. Some loops of a place that repeats itself close on the wrong pose: no link is trusted more than the set.
+template <typename IsWeighed>
+void weigh(std::vector<Loop> loops, IsWeighed is_weighed, std::map<Pair, CandidateLink>& links) {
   const auto num_closed =
       static_cast<double>(std::count_if(loops.begin(), loops.end(), [](const Loop& l) { return l.closed; }));
   const double usual = (num_closed + kPriorLoops) / (static_cast<double>(loops.size()) + kPriorLoops);
-  // The worst goes first, with its loops: what it contradicted may be right.
   std::set<Pair> dropped;
   std::map<Pair, Tally> tallies;
   while (true) {
     tallies = count(loops);
+    std::erase_if(tallies, [&](const auto& t) { return !is_weighed(t.first); });
     const auto worst = std::min_element(tallies.begin(), tallies.end(), [&](const auto& x, const auto& y) {
       return x.second.share(usual) < y.second.share(usual);
     });
@@ -78,10 +79,32 @@ void PoseGraph::weigh_by_loops(const std::vector<PointMoments>& points, double s
     dropped.insert(pair);
     std::erase_if(loops, [&](const Loop& l) { return std::count(l.links.begin(), l.links.end(), pair) > 0; });
   }
-  // Some loops of a place that repeats itself close on the wrong pose: no link is trusted more than the set.
-  for (auto& [pair, link] : links_) {
+  for (auto& [pair, link] : links) {
+    if (!is_weighed(pair)) continue;
     link.trust = dropped.contains(pair) ? 0 : trust_of(usual) * trust_of(tallies[pair].share(usual));
   }
+}
+
+}  // namespace
+
+void PoseGraph::weigh_by_loops(const std::vector<PointMoments>& points, double same_m) {
+  std::map<Pair, const LinkHypothesis*> clear, judged;
+  for (const auto& [pair, link] : links_) {
+    if (link.hypotheses.empty() || link.hypotheses.front().log_odds < kClearLogOdds) continue;
+    const LinkHypothesis& likeliest = link.hypotheses.front();
+    clear[pair] = &likeliest;
+    if (likeliest.free_space.tells()) judged[pair] = &likeliest;
+  }
+  // What free space could have vetoed, and did not, has stood a test of its own. Links that stood none do not speak
+  // against it.
+  weigh(
+      find_loops(judged, num_scans_, points, same_m), [&](const Pair& p) { return judged.contains(p); }, links_);
+  std::set<Pair> sure;
+  for (const auto& [pair, hypothesis] : judged) {
+    if (links_.at(pair).trust > 0) sure.insert(pair);
+  }
+  weigh(
+      find_loops(clear, num_scans_, points, same_m), [&](const Pair& p) { return !sure.contains(p); }, links_);
 }
 
 }  // namespace tcm_icp

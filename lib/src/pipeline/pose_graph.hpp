@@ -38,7 +38,8 @@ class PoseGraph {
   /// contradict one another. Log-odds come from a pair alone; in a place that repeats itself all pairs err alike, and
   /// only loops show it. A link counts by the share of its loops that close, with the set's own share standing in where
   /// it has few: fully from nine in ten on, not at all below a half. The worst link is dropped first, and its loops
-  /// are not held against the others; but none counts more than the set's own share allows. Replaces earlier weights.
+  /// are not held against the others; but none counts more than the set's own share allows. Links that free space told
+  /// of and did not veto are weighed by their own loops alone. Replaces earlier weights.
   /// Cost: n loops a clear link.
   /// @param points  of each scan
   /// @param same_m  rms over a scan's points within which poses are one

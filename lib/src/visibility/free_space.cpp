@@ -86,8 +86,10 @@ void compare_sides(const SightedScan& a, const SightedScan& b, const std::vector
 
 }  // namespace
 
+bool FreeSpaceEvidence::tells() const { return num_points >= kMinCount; }
+
 double FreeSpaceEvidence::excess() const {
-  const double violating = num_points < kMinCount ? 0 : violation_share() / kMaxViolationShare;
+  const double violating = !tells() ? 0 : violation_share() / kMaxViolationShare;
   const double opposed = num_matches < kMinCount ? 0 : opposed_share() / kMaxOpposedShare;
   return std::max(violating, opposed);
 }

@@ -21,6 +21,8 @@ struct FreeSpaceEvidence {
 
   double violation_share() const { return share(num_violating, num_points); }
   double opposed_share() const { return share(num_opposed, num_matches); }
+  /// Whether enough points were looked at for violations to show: only then does it mean anything that there are none.
+  bool tells() const;
   /// The larger of both shares in units of the most that noise, or what moved between the scans, may make; 0 where too
   /// few points tell.
   double excess() const;
