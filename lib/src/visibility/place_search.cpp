@@ -15,6 +15,7 @@ constexpr float kGridMargin = 0.3F, kLeastMargin = 0.1F;
 constexpr double kAsGoodFactor = 1.25, kAsGoodMargin = 0.001;
 constexpr int kTrialMoves = 48;
 constexpr double kLongestMove = 0.2;
+constexpr double kStartFactor = 1.5;  // of looks for others: clear of the bound that they must not cross
 
 // Places along the line on which those as good lie: a narrow field of view leaves the distance open, and few random
 // moves meet that line.
@@ -68,14 +69,15 @@ std::vector<Found> search_grid(HiddenShare& hidden, const Eigen::AlignedBox3f& b
   return best_of(found, count, 1.5 * step);  // not next to one another
 }
 
-void descend(HiddenShare& hidden, double first_step, double last_step, Found& at) {
+void descend(HiddenShare& hidden, double first_step, double last_step, Found& at,
+             const std::function<bool(const Place&)>& allowed) {
   at.hidden = hidden(at.place);
   for (double step = first_step; step >= last_step; step /= 2) {
     int failed = 0;
     for (int k = 0; failed < 6; k = (k + 1) % 6) {
       Place place = at.place;
       place[k / 2] += static_cast<float>(k % 2 == 0 ? step : -step);
-      const double share = hidden(place);
+      const double share = !allowed || allowed(place) ? hidden(place) : 1;
       if (share < at.hidden) {
         at = {share, place};
         failed = 0, --k;
@@ -103,6 +105,20 @@ std::vector<Found> look_around(HiddenShare& hidden, const Found& from, Rng& rng)
     found.push_back({hidden(place), place});
   }
   look_along(hidden, from, found);
+  return found;
+}
+
+std::vector<Found> look_for_others(HiddenShare& hidden, const Found& from, double apart) {
+  std::vector<Found> found;
+  for (int code = 0; code < 27; ++code) {
+    const Eigen::Vector3f direction(static_cast<float>(code % 3 - 1), static_cast<float>(code / 3 % 3 - 1),
+                                    static_cast<float>(code / 9 - 1));
+    if (direction.isZero()) continue;
+    Found other{1, from.place + static_cast<float>(kStartFactor * apart) * direction.normalized()};
+    descend(hidden, apart / 2, apart / 4, other,
+            [&](const Place& p) { return (p - from.place).norm() >= static_cast<float>(apart); });
+    found.push_back(other);
+  }
   return found;
 }
 

@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <cstddef>
+#include <functional>
 #include <vector>
 
 #include "hidden_share.hpp"
@@ -27,10 +28,16 @@ Eigen::AlignedBox3f search_box(const Eigen::AlignedBox3f& of_points);
 std::vector<Found> search_grid(HiddenShare& hidden, const Eigen::AlignedBox3f& box, std::size_t count);
 
 /// Compass search: a step that helps is taken again; where none of six does, steps half as long.
-void descend(HiddenShare& hidden, double first_step, double last_step, Found& at);
+/// @param allowed  places that may be looked at; empty: all
+void descend(HiddenShare& hidden, double first_step, double last_step, Found& at,
+             const std::function<bool(const Place&)>& allowed = {});
 
 /// Places at random distances of up to 0.2 in random directions, and along the line of the best of them.
 std::vector<Found> look_around(HiddenShare& hidden, const Found& from, Rng& rng);
+
+/// The best places not nearer to it than `apart`, by descents from 26 sides. Places as good may lie along a narrow
+/// valley, which random moves miss.
+std::vector<Found> look_for_others(HiddenShare& hidden, const Found& from, double apart);
 
 /// Of the places found around the best, those as good.
 std::vector<Place> as_good(const std::vector<Found>& around, const Found& best);

@@ -58,8 +58,7 @@ std::vector<Place> spread_out(const std::vector<Place>& good, const Found& best)
 }
 
 // Chance may stop a descent; what lies around shows it.
-std::vector<Place> finish(const UnitFrame& frame, const Look& look, Rng& rng, Found& best) {
-  HiddenShare hidden(frame.cloud, look.bins_per_point);
+std::vector<Place> finish(HiddenShare& hidden, const Look& look, Rng& rng, Found& best) {
   for (int round = 1;; ++round) {
     descend(hidden, look.first_step, look.last_step, best);
     const std::vector<Found> around = look_around(hidden, best, rng);
@@ -99,13 +98,20 @@ std::optional<Viewpoint> find_viewpoint(const Cloud& cloud, std::span<const Eige
     if (look.kept == 1) good = as_good(look_around(hidden, found.front(), rng), found.front());
   }
   Found& best = found.front();
-  if (best.hidden < kHopelessShare && radius(good, best) < kHopelessMove) good = finish(*frame, kLastLook, rng, best);
+  std::vector<Place> others;
+  if (best.hidden < kHopelessShare && radius(good, best) < kHopelessMove) {
+    HiddenShare hidden(frame->cloud, kLastLook.bins_per_point);
+    good = finish(hidden, kLastLook, rng, best);
+    if (radius(good, best) <= kMaxRadius) others = as_good(look_for_others(hidden, best, kMaxRadius), best);
+    if (radius(others, best) > kMaxRoughRadius) good.insert(good.end(), others.begin(), others.end());
+  }
 
   Viewpoint out;
   out.place = frame->from_unit(best.place);
   out.hidden_share = best.hidden;
   out.radius_m = radius(good, best) * frame->unit_m;
   out.extent_m = frame->unit_m;
+  good.insert(good.end(), others.begin(), others.end());
   for (const Place& p : spread_out(good, best)) out.alternatives.push_back(frame->from_unit(p));
   return out;
 }
