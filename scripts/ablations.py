@@ -23,7 +23,7 @@ import json
 from paper.cells import CellStore, cell_name
 from paper.findings import finding
 from paper.formats import markdown, write_table
-from paper.measure import initial_poses, measure
+from paper.measure import initial_poses, judged, measure
 from paper.methods import QUICK_SAMPLING, QUICK_SCENES
 from paper.plan import FULL, ROUGH_POSES, Extent
 from paper.program import Program, Stopped
@@ -144,7 +144,7 @@ def main():
             results.append([])
             for data_set, seed in bench.cells(ablation):
                 result, was_run = bench.result(ablation, variant, data_set, seed)
-                results[-1].append(result)
+                results[-1].append(judged(result))
                 outcome = result.get("why") or f"{result['ok']}/{result['scans']} right, {result['cpu_s']:.1f} s"
                 progress.step(f"{ablation.key}, {variant.name}, set {data_set.key} seed {seed}: {outcome}", was_run)
         header, rows, sentence = table(ablation, results)

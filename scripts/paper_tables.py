@@ -34,7 +34,7 @@ except ImportError:
 from paper import charts, pictures
 from paper.cells import CellStore, cell_name
 from paper.formats import write_table
-from paper.measure import initial_poses, measure
+from paper.measure import initial_poses, judged, measure
 from paper.methods import BY_KEY, CONVENTIONAL, METHODS, QUICK_SAMPLING, QUICK_SCENES
 from paper.plan import FULL, ISOLATED_PERCENT, ROUGH_POSES, Extent, cells, spec
 from paper.program import Program, Stopped
@@ -92,7 +92,7 @@ class Bench:
         return result, True
 
     def results_of(self, data_set, kind, percent, method):
-        return [self.store.get(self.spec((data_set, kind, percent, seed, method))) for seed in self.extent.seeds]
+        return [judged(self.store.get(self.spec((data_set, kind, percent, seed, method)))) for seed in self.extent.seeds]
 
     def picture_source(self, data_set, kind, percent, method):
         """Folder of the first seed's result, or why there is none."""

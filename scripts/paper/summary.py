@@ -52,7 +52,8 @@ def summarize(results, value_of):
             continue
         value = value_of(result)
         if value is None:
-            out.reasons.append("not measured by this evaluate" if result.get("ok") is not None else "none")
+            unknown = "not measured by this evaluate" if result.get("ok") is not None else "none"
+            out.reasons.append(result.get("no_errors", unknown))
         else:
             out.values.append(value)
     return out
