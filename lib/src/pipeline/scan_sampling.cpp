@@ -83,6 +83,7 @@ SampledScan sample_scan(const std::filesystem::path& path, const PipelineOptions
   out.middle = median_point(scan.cloud.points);
   scan.extent_m = robust_extent(scan.cloud.points, out.middle);
   if (normals == ScanNormals::kNone) return out;
+  out.line_pieces = find_line_pieces(scan.cloud.points, index);
   NormalEstimate estimate = estimate_normals(scan.cloud.points, index, {}, num_threads);
   std::vector<double> roughness;
   for (std::size_t i = 0; i < estimate.normals.size(); ++i) {

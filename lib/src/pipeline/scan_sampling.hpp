@@ -7,12 +7,14 @@
 #include "tcm_icp/core/scan.hpp"
 #include "tcm_icp/outliers/outlier_removal.hpp"
 #include "tcm_icp/pipeline/pipeline_options.hpp"
+#include "tcm_icp/visibility/scan_lines.hpp"
 
 namespace tcm_icp {
 
 struct SampledScan {
   Scan scan;               ///< working cloud with outliers removed, with a normal at every point that has one
   Points surface_normals;  ///< the same normals, zero where the place is too rough to be a surface
+  LinePieces line_pieces;  ///< of the working cloud; none where it was thinned
   OutlierRule outliers;
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();  ///< [m] median point of the working cloud
 };

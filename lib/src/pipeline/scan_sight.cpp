@@ -15,7 +15,9 @@ std::vector<std::optional<Viewpoint>> find_viewpoints(const std::vector<SampledS
     for (std::size_t i = begin; i < end; ++i) {
       const Scan& scan = scans[i].scan;
       Rng rng = make_stream(context.seed, "viewpoint", scan.file);
-      out[i] = find_viewpoint(scan.cloud, std::array{Eigen::Vector3d(-scan.origin)}, rng);
+      // Scan lines tell it sharply, where there are any, and also outdoors, where little hides behind anything.
+      out[i] = find_viewpoint_by_lines(scan.cloud, scans[i].line_pieces, rng);
+      if (!out[i]) out[i] = find_viewpoint(scan.cloud, std::array{Eigen::Vector3d(-scan.origin)}, rng);
     }
   });
   return out;

@@ -8,6 +8,7 @@ namespace {
 
 // On real and simulated scenes right poses stay below, wrong ones of interiors lie above (decision 0016).
 constexpr double kMaxViolationShare = 0.03;
+constexpr double kVetoedOpposedShare = 0.3;
 constexpr std::size_t kMinCount = 100;  // at fewer, a share of three in a hundred is chance
 
 constexpr std::size_t kPoints = 3000;
@@ -90,7 +91,7 @@ bool FreeSpaceEvidence::tells() const { return num_points >= kMinCount; }
 
 double FreeSpaceEvidence::excess() const {
   const double violating = !tells() ? 0 : violation_share() / kMaxViolationShare;
-  const double opposed = num_matches < kMinCount ? 0 : opposed_share() / kMaxOpposedShare;
+  const double opposed = num_matches < kMinCount ? 0 : opposed_share() / kVetoedOpposedShare;
   return std::max(violating, opposed);
 }
 

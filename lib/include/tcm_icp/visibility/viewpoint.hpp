@@ -10,9 +10,14 @@
 
 namespace tcm_icp {
 
-/// The place from which the fewest points of a scan hide behind others.
+/// What told where a scan was taken from.
+enum class ViewpointEvidence { kScanLines, kOcclusion };
+
+/// The place about which a scan's lines were swept, or from which the fewest of its points hide behind others.
 struct Viewpoint {
+  ViewpointEvidence evidence = ViewpointEvidence::kOcclusion;
   Eigen::Vector3d place = Eigen::Vector3d::Zero();  ///< in the cloud's frame
+  double line_share = 0;    ///< 0..1; pieces of scan lines that agree with the place; 0 where it was not found by them
   double hidden_share = 1;  ///< 0..1; points behind others from there. A scanner sees all its points: noise is left
   double radius_m = 0;      ///< [m] moves of this length leave as few hidden
   double extent_m = 0;      ///< [m] middle edge of the box about 94 % of the points, along their principal axes
