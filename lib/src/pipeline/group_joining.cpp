@@ -5,6 +5,7 @@
 
 #include "merged_cloud.hpp"
 #include "pair_search.hpp"
+#include "scan_sight.hpp"
 #include "scan_set.hpp"
 
 namespace tcm_icp {
@@ -66,6 +67,19 @@ double support_of_members(const AdjustedSet& a, const AdjustedSet& b, const Eige
     T_a_scan[i] = T_a_b * b.T_reference_scan[i];
     sum += input.graph.support(i, a.placed, T_a_scan, input.scans[i].moments, kSameLinkPose * resolutions.coarse_m)
                .log_odds;
+  }
+  return sum;
+}
+
+// Of the scans of the one and of the other group, with b at that pose in a's frame.
+FreeSpaceEvidence free_space_of_members(const AdjustedSet& a, const AdjustedSet& b, const Eigen::Isometry3d& T_a_b,
+                                        const MergeInput& input) {
+  FreeSpaceEvidence sum;
+  for (const std::size_t i : members_of(a)) {
+    for (const std::size_t j : members_of(b)) {
+      sum += free_space(input.scans[i], input.scans[j],
+                        a.T_reference_scan[i].inverse() * T_a_b * b.T_reference_scan[j]);
+    }
   }
   return sum;
 }
@@ -141,6 +155,9 @@ std::optional<GroupJoin> join_groups(const MergeInput& input, const Resolutions&
     const AdjustedSet& b = groups.sets[pair.second];
     CandidateLink weighed{pair.first, pair.second, {}};
     for (LinkHypothesis h : link.hypotheses) {
+      const FreeSpaceEvidence space = free_space_of_members(a, b, h.T_a_b, input);
+      input.context.debug(names[pair.first] + " to " + names[pair.second] + ": FS " + std::to_string(h.log_odds) + " " +std::to_string(space.violation_share()) + " " + std::to_string(space.num_points)+" opp "+std::to_string(space.opposed_share())+" "+std::to_string(space.num_matches));
+      if (space.vetoes()) continue;
       const double members = support_of_members(a, b, h.T_a_b, input, resolutions);
       input.context.debug(names[pair.first] + " to " + names[pair.second] + ": log-odds " + std::to_string(h.log_odds) +
                           ", their members' " + std::to_string(members));

@@ -14,10 +14,12 @@ std::vector<std::optional<Viewpoint>> find_viewpoints(const std::vector<SampledS
   parallel_for(context.num_threads, scans.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const Scan& scan = scans[i].scan;
-      Rng rng = make_stream(context.seed, "viewpoint", scan.file);
       // Scan lines tell it sharply, where there are any, and also outdoors, where little hides behind anything.
-      out[i] = find_viewpoint_by_lines(scan.cloud, scans[i].line_pieces, rng);
-      if (!out[i]) out[i] = find_viewpoint(scan.cloud, std::array{Eigen::Vector3d(-scan.origin)}, rng);
+      Rng for_lines = make_stream(context.seed, "scan lines", scan.file);
+      out[i] = find_viewpoint_by_lines(scan.cloud, scans[i].line_pieces, for_lines);
+      if (out[i]) continue;
+      Rng rng = make_stream(context.seed, "viewpoint", scan.file);
+      out[i] = find_viewpoint(scan.cloud, std::array{Eigen::Vector3d(-scan.origin)}, rng);
     }
   });
   return out;

@@ -24,7 +24,9 @@ class DirectionBins {
     const float u = x * scale, v = y * scale;
     // The lower half is folded out over the edges of the upper.
     const float folded_u = std::copysign(1 - std::abs(v), u), folded_v = std::copysign(1 - std::abs(u), v);
-    return row(z < 0 ? folded_v : v) * edge_ + row(z < 0 ? folded_u : u);
+    // Products in floats are exact here, and SSE2 has none of 32-bit integers.
+    const auto edge = static_cast<float>(edge_);
+    return static_cast<std::int32_t>(static_cast<float>(row(z < 0 ? folded_v : v)) * edge) + row(z < 0 ? folded_u : u);
   }
 
   /// The bin at a row and a column at most one outside of the square: beyond its border the map goes on, turned round.
@@ -37,8 +39,8 @@ class DirectionBins {
 
  private:
   std::int32_t row(float w) const {
-    const auto edge = static_cast<float>(edge_);
-    return static_cast<std::int32_t>(std::min((w + 1) * (edge / 2), edge - 0.5F));
+    const auto row = static_cast<std::int32_t>((w + 1) * (static_cast<float>(edge_) / 2));
+    return row - (row >= edge_ ? 1 : 0);  // the border, and what rounding takes beyond it
   }
 
   int edge_;

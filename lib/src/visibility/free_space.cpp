@@ -7,16 +7,22 @@ namespace tcm_icp {
 namespace {
 
 // On real and simulated scenes right poses stay below, wrong ones of interiors lie above (decision 0016).
-constexpr double kMaxViolationShare = 0.03;
-constexpr double kVetoedOpposedShare = 0.3;
+constexpr double kMaxViolationShare = 0.02, kVetoedOpposedShare = 0.3;
 constexpr std::size_t kMinCount = 100;  // at fewer, a share of three in a hundred is chance
 
 constexpr std::size_t kPoints = 3000;
 // Clearly before a surface: a coarse voxel, and what the viewpoint and a bin's width leave open.
-constexpr double kClearOfVoxel = 1, kClearOfRange = 0.01;
+constexpr double kClearOfVoxel = 1, kClearOfRange = 0.03;
 constexpr double kMinIncidenceCosine = 0.2;  // nearly along a surface, a bin holds any range
 constexpr int kMinFilled = 3;                // what is seen must be a surface, not a leaf
 constexpr double kMinNormalCosine = 0.7;
+constexpr double kSamePlane = 0.25;  // [voxels] thin things have both sides within a voxel, but not at one place
+
+// In units of the largest share, and of two standard deviations of the count beyond it: neighbours are one observation.
+double beyond_chance(std::size_t part, std::size_t all, double largest_share) {
+  const double largest = largest_share * static_cast<double>(all);
+  return static_cast<double>(part) / (largest + 2 * std::sqrt(largest));
+}
 
 struct Tally {
   std::size_t before = 0, at = 0;
@@ -75,9 +81,13 @@ void look_both(const SightedScan& viewer, const SightedScan& other, const std::v
 void compare_sides(const SightedScan& a, const SightedScan& b, const std::vector<std::size_t>& picked,
                    const Eigen::Isometry3d& T_a_b, FreeSpaceEvidence& evidence) {
   if (!a.sight.knows_sides() || !b.sight.knows_sides()) return;
+  const double voxel_m = a.surfaces.voxel_size_m;
   for (const std::size_t i : picked) {
-    const Neighbor q = a.surfaces.index.nearest_within(T_a_b * b.surfaces.cloud.points[i], a.surfaces.voxel_size_m);
+    const Eigen::Vector3d p = T_a_b * b.surfaces.cloud.points[i];
+    const Neighbor q = a.surfaces.index.nearest_within(p, voxel_m);
     if (!q.found()) continue;
+    const Eigen::Vector3d apart = p - a.surfaces.cloud.points[q.index];
+    if (std::abs(a.surfaces.cloud.normals[q.index].dot(apart)) > kSamePlane * voxel_m) continue;
     const double cosine = (T_a_b.linear() * b.sight.facing[i]).dot(a.sight.facing[q.index]);
     if (std::abs(cosine) <= kMinNormalCosine) continue;
     ++evidence.num_matches;
@@ -90,8 +100,8 @@ void compare_sides(const SightedScan& a, const SightedScan& b, const std::vector
 bool FreeSpaceEvidence::tells() const { return num_points >= kMinCount; }
 
 double FreeSpaceEvidence::excess() const {
-  const double violating = !tells() ? 0 : violation_share() / kMaxViolationShare;
-  const double opposed = num_matches < kMinCount ? 0 : opposed_share() / kVetoedOpposedShare;
+  const double violating = tells() ? beyond_chance(num_violating, num_points, kMaxViolationShare) : 0;
+  const double opposed = num_matches < kMinCount ? 0 : beyond_chance(num_opposed, num_matches, kVetoedOpposedShare);
   return std::max(violating, opposed);
 }
 

@@ -1,13 +1,45 @@
 #include "hidden_share.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <limits>
 
 namespace tcm_icp {
 namespace {
 
 // What is clearly nearer: beyond noise and the slope of a surface across a bin.
 constexpr float kGapOfScan = 0.005F, kGapOfRange = 0.02F;
+
+// Ten bits with two zeros after each.
+std::uint32_t spread_bits(std::uint32_t v) {
+  v = (v | v << 16U) & 0x030000FFU;
+  v = (v | v << 8U) & 0x0300F00FU;
+  v = (v | v << 4U) & 0x030C30C3U;
+  return (v | v << 2U) & 0x09249249U;
+}
+
+// Indices along Morton's curve, in the box of the points.
+std::vector<std::uint32_t> z_order(const UnitCloud& cloud) {
+  const std::size_t n = cloud.size();
+  std::vector<std::uint32_t> code(n, 0);
+  std::uint32_t axis = 0;
+  for (const auto* values : {&cloud.x, &cloud.y, &cloud.z}) {
+    if (n == 0) break;
+    const auto [low, high] = std::minmax_element(values->begin(), values->end());
+    const float scale = *high > *low ? 1023 / (*high - *low) : 0;
+    for (std::size_t i = 0; i < n; ++i) {
+      code[i] |= spread_bits(static_cast<std::uint32_t>(((*values)[i] - *low) * scale)) << axis;
+    }
+    ++axis;
+  }
+  std::vector<std::uint64_t> keys(n);
+  for (std::size_t i = 0; i < n; ++i) keys[i] = std::uint64_t{code[i]} << 32U | i;
+  std::sort(keys.begin(), keys.end());
+  std::vector<std::uint32_t> order(n);
+  for (std::size_t i = 0; i < n; ++i) order[i] = static_cast<std::uint32_t>(keys[i]);  // the lower half
+  return order;
+}
 
 }  // namespace
 
@@ -23,23 +55,22 @@ UnitCloud UnitCloud::thinned(std::size_t count) const {
 }
 
 HiddenShare::HiddenShare(const UnitCloud& cloud, double bins_per_point)
-    : cloud_(cloud),
-      bins_(static_cast<std::size_t>(bins_per_point * static_cast<double>(cloud.size()))),
+    : bins_(static_cast<std::size_t>(bins_per_point * static_cast<double>(cloud.size()))),
+      index_(z_order(cloud)),
       bin_(cloud.size()),
       range_(cloud.size()),
-      nearest_(bins_.size()) {}
-
-// Neither lies on the other's tangent plane: a floor seen at a low angle fills a bin at many distances.
-bool HiddenShare::apart(std::size_t p, std::size_t q, float gap) const {
-  const float dx = cloud_.x[p] - cloud_.x[q], dy = cloud_.y[p] - cloud_.y[q], dz = cloud_.z[p] - cloud_.z[q];
-  return std::abs(dx * cloud_.nx[p] + dy * cloud_.ny[p] + dz * cloud_.nz[p]) > gap &&
-         std::abs(dx * cloud_.nx[q] + dy * cloud_.ny[q] + dz * cloud_.nz[q]) > gap;
+      nearest_(bins_.size()) {
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    surfaces_.push_back({cloud.x[i], cloud.y[i], cloud.z[i], cloud.nx[i], cloud.ny[i], cloud.nz[i]});
+  }
+  for (const std::uint32_t i : index_) x_.push_back(cloud.x[i]), y_.push_back(cloud.y[i]), z_.push_back(cloud.z[i]);
 }
 
-double HiddenShare::operator()(const Eigen::Vector3f& place) {
-  const std::size_t n = cloud_.size();
+double HiddenShare::operator()(const Eigen::Vector3f& place, double at_most) {
+  const std::size_t n = index_.size();
+  if (n == 0) return 0;
   const float px = place.x(), py = place.y(), pz = place.z();
-  const float *x = cloud_.x.data(), *y = cloud_.y.data(), *z = cloud_.z.data();
+  const float *x = x_.data(), *y = y_.data(), *z = z_.data();
   std::int32_t* bin = bin_.data();
   float* range = range_.data();
   const DirectionBins bins = bins_;
@@ -48,18 +79,25 @@ double HiddenShare::operator()(const Eigen::Vector3f& place) {
     range[i] = std::sqrt(dx * dx + dy * dy + dz * dz);
     bin[i] = bins(dx, dy, dz);
   }
-  std::fill(nearest_.begin(), nearest_.end(), -1);
+  std::fill(nearest_.begin(), nearest_.end(), std::numeric_limits<std::uint64_t>::max());
   for (std::size_t i = 0; i < n; ++i) {
-    std::int32_t& nearest = nearest_[static_cast<std::size_t>(bin[i])];
-    if (nearest < 0 || range[i] < range[nearest]) nearest = static_cast<std::int32_t>(i);
+    // Bits of floats that are not negative are ordered as they are; of equally near points the first counts.
+    const std::uint64_t own = std::uint64_t{std::bit_cast<std::uint32_t>(range[i])} << 32U | index_[i];
+    std::uint64_t& nearest = nearest_[static_cast<std::size_t>(bin[i])];
+    nearest = std::min(nearest, own);
   }
+  const auto share = [&](std::size_t count) { return static_cast<double>(count) / static_cast<double>(n); };
   std::size_t hidden = 0;
   for (std::size_t i = 0; i < n; ++i) {
-    const auto nearest = static_cast<std::size_t>(nearest_[static_cast<std::size_t>(bin[i])]);
+    const std::uint64_t nearest = nearest_[static_cast<std::size_t>(bin[i])];
     const float gap = kGapOfScan + kGapOfRange * range[i];
-    if (range[i] - range[nearest] > gap && apart(i, nearest, gap)) ++hidden;
+    const auto nearest_range = std::bit_cast<float>(static_cast<std::uint32_t>(nearest >> 32U));
+    if (!(range[i] - nearest_range > gap)) continue;
+    if (apart(surfaces_[index_[i]], surfaces_[static_cast<std::uint32_t>(nearest)], gap) && share(++hidden) > at_most) {
+      break;
+    }
   }
-  return n == 0 ? 0 : static_cast<double>(hidden) / static_cast<double>(n);
+  return share(hidden);
 }
 
 }  // namespace tcm_icp

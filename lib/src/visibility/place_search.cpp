@@ -17,6 +17,8 @@ constexpr int kTrialMoves = 48;
 constexpr double kLongestMove = 0.2;
 constexpr double kStartFactor = 1.5;  // of looks for others: clear of the bound that they must not cross
 
+double most_as_good(const Found& best) { return kAsGoodFactor * best.hidden + kAsGoodMargin; }
+
 // Places along the line on which those as good lie: a narrow field of view leaves the distance open, and few random
 // moves meet that line.
 void look_along(HiddenShare& hidden, const Found& from, std::vector<Found>& found) {
@@ -26,7 +28,7 @@ void look_along(HiddenShare& hidden, const Found& from, std::vector<Found>& foun
   for (const double length : {0.0125, 0.025, 0.05, 0.1, 0.2}) {
     for (const double sign : {-1.0, 1.0}) {
       const Place place = from.place + static_cast<float>(sign * length) * direction;
-      found.push_back({hidden(place), place});
+      found.push_back({hidden(place, most_as_good(from)), place});
     }
   }
 }
@@ -77,7 +79,7 @@ void descend(HiddenShare& hidden, double first_step, double last_step, Found& at
     for (int k = 0; failed < 6; k = (k + 1) % 6) {
       Place place = at.place;
       place[k / 2] += static_cast<float>(k % 2 == 0 ? step : -step);
-      const double share = !allowed || allowed(place) ? hidden(place) : 1;
+      const double share = !allowed || allowed(place) ? hidden(place, at.hidden) : 1;
       if (share < at.hidden) {
         at = {share, place};
         failed = 0, --k;
@@ -91,7 +93,7 @@ void descend(HiddenShare& hidden, double first_step, double last_step, Found& at
 std::vector<Place> as_good(const std::vector<Found>& around, const Found& best) {
   std::vector<Place> good;
   for (const Found& f : around) {
-    if (f.hidden <= kAsGoodFactor * best.hidden + kAsGoodMargin) good.push_back(f.place);
+    if (f.hidden <= most_as_good(best)) good.push_back(f.place);
   }
   return good;
 }
@@ -102,14 +104,14 @@ std::vector<Found> look_around(HiddenShare& hidden, const Found& from, Rng& rng)
     const Eigen::Vector3d direction(standard_normal(rng), standard_normal(rng), standard_normal(rng));
     const double length = kLongestMove * uniform01(rng);
     const Place place = from.place + (length * direction.normalized()).cast<float>();
-    found.push_back({hidden(place), place});
+    found.push_back({hidden(place, most_as_good(from)), place});
   }
   look_along(hidden, from, found);
   return found;
 }
 
-std::vector<Found> look_for_others(HiddenShare& hidden, const Found& from, double apart) {
-  std::vector<Found> found;
+std::vector<Place> look_for_others(HiddenShare& hidden, const Found& from, double apart, double too_far) {
+  std::vector<Place> others;
   for (int code = 0; code < 27; ++code) {
     const Eigen::Vector3f direction(static_cast<float>(code % 3 - 1), static_cast<float>(code / 3 % 3 - 1),
                                     static_cast<float>(code / 9 - 1));
@@ -117,9 +119,11 @@ std::vector<Found> look_for_others(HiddenShare& hidden, const Found& from, doubl
     Found other{1, from.place + static_cast<float>(kStartFactor * apart) * direction.normalized()};
     descend(hidden, apart / 2, apart / 4, other,
             [&](const Place& p) { return (p - from.place).norm() >= static_cast<float>(apart); });
-    found.push_back(other);
+    if (other.hidden > most_as_good(from)) continue;
+    others.push_back(other.place);
+    if ((other.place - from.place).norm() > static_cast<float>(too_far)) break;
   }
-  return found;
+  return others;
 }
 
 }  // namespace tcm_icp

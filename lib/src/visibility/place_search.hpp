@@ -32,12 +32,13 @@ std::vector<Found> search_grid(HiddenShare& hidden, const Eigen::AlignedBox3f& b
 void descend(HiddenShare& hidden, double first_step, double last_step, Found& at,
              const std::function<bool(const Place&)>& allowed = {});
 
-/// Places at random distances of up to 0.2 in random directions, and along the line of the best of them.
+/// Places at random distances of up to 0.2 in random directions, and along the line of the best of them. The shares of
+/// those not as good are not exact: each is more than one as good may have.
 std::vector<Found> look_around(HiddenShare& hidden, const Found& from, Rng& rng);
 
-/// The best places not nearer to it than `apart`, by descents from 26 sides. Places as good may lie along a narrow
-/// valley, which random moves miss.
-std::vector<Found> look_for_others(HiddenShare& hidden, const Found& from, double apart);
+/// Places as good, not nearer to it than `apart`, by descents from 26 sides: they may lie along a narrow valley, which
+/// random moves miss. One beyond `too_far` ends the search.
+std::vector<Place> look_for_others(HiddenShare& hidden, const Found& from, double apart, double too_far);
 
 /// Of the places found around the best, those as good.
 std::vector<Place> as_good(const std::vector<Found>& around, const Found& best);

@@ -2,12 +2,19 @@
 
 namespace tcm_icp {
 
+namespace {
+
+// More nearly along the surface, noise turns the normal to either side.
+constexpr double kMinIncidenceCosine = 0.1;
+
+}  // namespace
+
 int Sight::side(const Eigen::Vector3d& point, const Eigen::Vector3d& normal) const {
   bool towards = false, away = false;
   for (const auto& place : places) {
-    const double height_m = normal.dot(place - point);
-    towards = towards || height_m > 0;
-    away = away || height_m < 0;
+    const double cosine = normal.dot((place - point).normalized());
+    towards = towards || cosine > -kMinIncidenceCosine;
+    away = away || cosine < kMinIncidenceCosine;
   }
   return towards == away ? 0 : towards ? 1 : -1;
 }

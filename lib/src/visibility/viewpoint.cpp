@@ -102,14 +102,17 @@ std::optional<Viewpoint> find_viewpoint(const Cloud& cloud, std::span<const Eige
   if (best.hidden < kHopelessShare && radius(good, best) < kHopelessMove) {
     HiddenShare hidden(frame->cloud, kLastLook.bins_per_point);
     good = finish(hidden, kLastLook, rng, best);
-    if (radius(good, best) <= kMaxRadius) others = as_good(look_for_others(hidden, best, kMaxRadius), best);
-    if (radius(others, best) > kMaxRoughRadius) good.insert(good.end(), others.begin(), others.end());
+    if (best.hidden <= kMaxHiddenShare && radius(good, best) <= kMaxRadius) {
+      others = look_for_others(hidden, best, kMaxRadius, kMaxRoughRadius);
+    }
   }
 
   Viewpoint out;
   out.place = frame->from_unit(best.place);
   out.hidden_share = best.hidden;
-  out.radius_m = radius(good, best) * frame->unit_m;
+  const double radius_of_others = radius(others, best);
+  out.radius_m =
+      std::max(radius(good, best), radius_of_others > kMaxRoughRadius ? radius_of_others : 0) * frame->unit_m;
   out.extent_m = frame->unit_m;
   good.insert(good.end(), others.begin(), others.end());
   for (const Place& p : spread_out(good, best)) out.alternatives.push_back(frame->from_unit(p));

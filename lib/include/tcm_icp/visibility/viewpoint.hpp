@@ -37,7 +37,7 @@ struct Viewpoint {
 /// @param guesses  places to start from beside the grid, such as the origin of the file; those outside of the box do
 ///                 not count
 /// @return         nothing where fewer than 200 points have a normal, or they lie on a line
-/// Cost: 50 to 150 ms, whatever the number of points.
+/// Cost: 35 to 180 ms, whatever the number of points.
 std::optional<Viewpoint> find_viewpoint(const Cloud& cloud, std::span<const Eigen::Vector3d> guesses, Rng& rng);
 
 }  // namespace tcm_icp
