@@ -26,13 +26,35 @@ inline BoxRoom furnished_room() {
            box(5.5, 2.5, 1.2, 5.9, 2.9, 3), box(0.3, 0.5, 0, 0.9, 1.4, 1.1), box(3, 4.9, 0, 3.3, 5.3, 1.7)}};
 }
 
-/// Rays evenly over the sphere (a Fibonacci lattice); points with exact normals, in the frame of the room.
-inline Cloud scan_room(const BoxRoom& room, const Eigen::Vector3d& from, std::size_t num_rays) {
-  Cloud cloud;
+/// Rays evenly over the sphere: a Fibonacci lattice.
+inline Points rays_over_sphere(std::size_t num_rays) {
+  Points rays;
   for (std::size_t i = 0; i < num_rays; ++i) {
     const double z = 1 - (2 * static_cast<double>(i) + 1) / static_cast<double>(num_rays);
     const double angle = static_cast<double>(i) * std::numbers::pi * (3 - std::sqrt(5.0)), r = std::sqrt(1 - z * z);
-    const Eigen::Vector3d ray(r * std::cos(angle), r * std::sin(angle), z);
+    rays.emplace_back(r * std::cos(angle), r * std::sin(angle), z);
+  }
+  return rays;
+}
+
+/// Of a spinning scanner: 32 lines from -30 to 10 degrees, a ray every 0.3 degrees.
+inline Points rays_of_spinning_scanner(const Eigen::Quaterniond& attitude) {
+  Points rays;
+  for (int line = 0; line < 32; ++line) {
+    const double elevation = (-30 + 40 * line / 31.0) * std::numbers::pi / 180;
+    for (int k = 0; k < 1200; ++k) {
+      const double azimuth = 2 * std::numbers::pi * k / 1200;
+      rays.push_back(attitude * Eigen::Vector3d(std::cos(elevation) * std::cos(azimuth),
+                                                std::cos(elevation) * std::sin(azimuth), std::sin(elevation)));
+    }
+  }
+  return rays;
+}
+
+/// Points with exact normals, in the frame of the room.
+inline Cloud scan_room(const BoxRoom& room, const Eigen::Vector3d& from, const Points& rays) {
+  Cloud cloud;
+  for (const Eigen::Vector3d& ray : rays) {
     double nearest = std::numeric_limits<double>::infinity();
     int nearest_axis = 0;
     const auto hit = [&](const Eigen::AlignedBox3d& box, bool inside) {
@@ -53,6 +75,10 @@ inline Cloud scan_room(const BoxRoom& room, const Eigen::Vector3d& from, std::si
     cloud.normals.push_back(Eigen::Vector3d::Unit(nearest_axis));  // of either sign: nobody tells a scan's normals
   }
   return cloud;
+}
+
+inline Cloud scan_room(const BoxRoom& room, const Eigen::Vector3d& from, std::size_t num_rays) {
+  return scan_room(room, from, rays_over_sphere(num_rays));
 }
 
 }  // namespace tcm_icp::testing

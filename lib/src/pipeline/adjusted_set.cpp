@@ -5,6 +5,7 @@
 
 #include "link_score.hpp"
 #include "link_verification.hpp"
+#include "linked_pairs.hpp"
 #include "scan_set.hpp"
 #include "tcm_icp/core/parallel.hpp"
 #include "verdict.hpp"
@@ -129,7 +130,9 @@ AdjustedSet set_of_one(std::size_t scan, std::size_t num_scans) {
 void adjust_and_verify(const std::vector<PreparedScan>& scans, const PoseGraph& graph, const Resolutions& resolutions,
                        const PipelineOptions& options, const RunContext& context, AdjustedSet& set) {
   while (true) {
-    set.pairs = overlapping_pairs(scans, set.T_reference_scan, set.placed, kMinLinkOverlap, context.num_threads);
+    set.pairs = without_unlinked(
+        scans, graph, set.T_reference_scan,
+        overlapping_pairs(scans, set.T_reference_scan, set.placed, kMinLinkOverlap, context.num_threads));
     set.adjustment = adjust_poses(scans, set.pairs, set.reference, resolutions, options, context, set.T_reference_scan);
     std::optional<std::size_t> worst = verify_members(scans, graph, context, set);
     if (const std::size_t best = best_reference(set); !worst && options.reference.empty() && best != set.reference) {

@@ -155,9 +155,7 @@ std::optional<GroupJoin> join_groups(const MergeInput& input, const Resolutions&
     const AdjustedSet& b = groups.sets[pair.second];
     CandidateLink weighed{pair.first, pair.second, {}};
     for (LinkHypothesis h : link.hypotheses) {
-      const FreeSpaceEvidence space = free_space_of_members(a, b, h.T_a_b, input);
-      input.context.debug(names[pair.first] + " to " + names[pair.second] + ": FS " + std::to_string(h.log_odds) + " " +std::to_string(space.violation_share()) + " " + std::to_string(space.num_points)+" opp "+std::to_string(space.opposed_share())+" "+std::to_string(space.num_matches));
-      if (space.vetoes()) continue;
+      if (free_space_of_members(a, b, h.T_a_b, input).vetoes()) continue;
       const double members = support_of_members(a, b, h.T_a_b, input, resolutions);
       input.context.debug(names[pair.first] + " to " + names[pair.second] + ": log-odds " + std::to_string(h.log_odds) +
                           ", their members' " + std::to_string(members));
