@@ -7,7 +7,7 @@ namespace tcm_icp {
 namespace {
 
 // On real and simulated scenes right poses stay below, wrong ones of interiors lie above (decision 0016).
-constexpr double kMaxViolationShare = 0.02, kVetoedOpposedShare = 0.3;
+constexpr double kMaxViolationShare = 0.0175, kVetoedOpposedShare = 0.3;
 constexpr std::size_t kMinCount = 100;  // at fewer, a share of three in a hundred is chance
 
 constexpr std::size_t kPoints = 3000;
@@ -18,10 +18,10 @@ constexpr int kMinFilled = 3;                // what is seen must be a surface, 
 constexpr double kMinNormalCosine = 0.7;
 constexpr double kSamePlane = 0.25;  // [voxels] thin things have both sides within a voxel, but not at one place
 
-// In units of the largest share, and of two standard deviations of the count beyond it: neighbours are one observation.
+// In units of the largest share, and of a standard deviation of the count beyond it.
 double beyond_chance(std::size_t part, std::size_t all, double largest_share) {
   const double largest = largest_share * static_cast<double>(all);
-  return static_cast<double>(part) / (largest + 2 * std::sqrt(largest));
+  return static_cast<double>(part) / (largest + std::sqrt(largest));
 }
 
 struct Tally {
