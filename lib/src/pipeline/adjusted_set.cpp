@@ -48,7 +48,8 @@ bool holds_by_group_alone(const AdjustedSet& set, std::size_t i) {
 std::optional<std::size_t> verify_members(const std::vector<PreparedScan>& scans, const PoseGraph& graph,
                                           const RunContext& context, AdjustedSet& set) {
   context.report("verifying", 0, 1);
-  set.free_space = free_space_of_neighbors(scans, set.pairs, set.T_reference_scan, context.num_threads);
+  set.free_space_of_pairs = free_space_of_pairs(scans, set.pairs, set.T_reference_scan, context.num_threads);
+  set.free_space = free_space_of_neighbors(scans.size(), set.pairs, set.free_space_of_pairs);
   parallel_for(context.num_threads, scans.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       if (!set.placed[i] || i == set.reference) continue;

@@ -27,10 +27,11 @@ struct AdjustedSet {
   std::vector<std::string> reasons;
   /// What the link to a group's cloud says of a scan that joined by it (group_joining.hpp), beside links between scans.
   std::vector<double> group_log_odds;
-  ScanPairs pairs;                ///< of members that overlap
-  AdjustmentRecord adjustment;    ///< the last
-  std::vector<LinkRecord> links;  ///< one for each of `pairs`
-  JointUncertainty uncertainty;   ///< in the reference's local frame
+  ScanPairs pairs;                                     ///< of members that overlap
+  std::vector<FreeSpaceEvidence> free_space_of_pairs;  ///< one for each of `pairs`
+  AdjustmentRecord adjustment;                         ///< the last
+  std::vector<LinkRecord> links;                       ///< one for each of `pairs`
+  JointUncertainty uncertainty;                        ///< in the reference's local frame
 
   std::size_t num_placed() const;
 };

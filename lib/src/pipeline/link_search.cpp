@@ -107,11 +107,11 @@ CandidateLink fit_candidates(const std::vector<PreparedScan>& scans, std::size_t
   lp.final_gate_m = kLastGate * voxel_m;
   lp.gate_shrink = kGateShrink;
   lp.max_iterations = kMaxPrograms;
-  std::size_t fits_left = kMaxFits;
+  std::size_t num_fits = 0, num_vetoed = 0;
   for (const auto& candidate : screen(target, source, candidates)) {
-    if (fits_left == 0) break;
+    if (num_fits - num_vetoed == kMaxFits) break;
     if (hopeless(target, source, candidate.T_target_source)) continue;
-    --fits_left;
+    ++num_fits;
     const RegistrationResult fit = register_lp(sample, target.pyramid, candidate.T_target_source, lp);
     if (!fit.usable()) continue;
     const bool known = std::any_of(link.hypotheses.begin(), link.hypotheses.end(), [&](const auto& h) {
@@ -123,7 +123,7 @@ CandidateLink fit_candidates(const std::vector<PreparedScan>& scans, std::size_t
     hypothesis.free_space = free_space(target, source, fit.T_target_source);
     link.hypotheses.push_back(hypothesis);
     if (hypothesis.free_space.vetoes()) {
-      ++fits_left;
+      ++num_vetoed;
       continue;
     }
     if (hypothesis.log_odds >= kClearLogOdds) break;  // the others cannot beat it

@@ -23,16 +23,22 @@ AlignmentEvidence verify_against_neighbors(const std::vector<PreparedScan>& scan
                           verification_at(voxel_m));
 }
 
-std::vector<FreeSpaceEvidence> free_space_of_neighbors(const std::vector<PreparedScan>& scans, const ScanPairs& pairs,
-                                                       const std::vector<Eigen::Isometry3d>& T_reference_scan,
-                                                       int num_threads) {
-  std::vector<FreeSpaceEvidence> of_pairs(pairs.size()), of_scans(scans.size());
+std::vector<FreeSpaceEvidence> free_space_of_pairs(const std::vector<PreparedScan>& scans, const ScanPairs& pairs,
+                                                   const std::vector<Eigen::Isometry3d>& T_reference_scan,
+                                                   int num_threads) {
+  std::vector<FreeSpaceEvidence> of_pairs(pairs.size());
   parallel_for(num_threads, pairs.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       const auto [a, b] = pairs[k];
       of_pairs[k] = free_space(scans[a], scans[b], T_reference_scan[a].inverse() * T_reference_scan[b]);
     }
   });
+  return of_pairs;
+}
+
+std::vector<FreeSpaceEvidence> free_space_of_neighbors(std::size_t num_scans, const ScanPairs& pairs,
+                                                       const std::vector<FreeSpaceEvidence>& of_pairs) {
+  std::vector<FreeSpaceEvidence> of_scans(num_scans);
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     of_scans[pairs[k].first] += of_pairs[k];
     of_scans[pairs[k].second] += of_pairs[k];
@@ -41,6 +47,7 @@ std::vector<FreeSpaceEvidence> free_space_of_neighbors(const std::vector<Prepare
 }
 
 std::vector<LinkRecord> verify_links(const std::vector<PreparedScan>& scans, const ScanPairs& pairs,
+                                     const std::vector<FreeSpaceEvidence>& free_space,
                                      const std::vector<Eigen::Isometry3d>& T_reference_scan, int num_threads) {
   std::vector<LinkRecord> links(pairs.size());
   parallel_for(num_threads, pairs.size(), [&](std::size_t begin, std::size_t end) {
@@ -60,7 +67,7 @@ std::vector<LinkRecord> verify_links(const std::vector<PreparedScan>& scans, con
       links[k].evidence = b_in_a >= a_in_b
                               ? verify_alignment(scans[b].held_out_sample, level_a, T_a_b, options)
                               : verify_alignment(scans[a].held_out_sample, level_b, T_a_b.inverse(), options);
-      links[k].free_space = free_space(scans[a], scans[b], T_a_b);
+      links[k].free_space = free_space[k];
       const Verdict verdict = judge(links[k].evidence, links[k].free_space);
       links[k].verdict = verdict.accepted ? "accepted" : "rejected";
       links[k].reason = verdict.reason;

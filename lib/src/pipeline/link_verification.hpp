@@ -15,13 +15,19 @@ namespace tcm_icp {
 AlignmentEvidence verify_against_neighbors(const std::vector<PreparedScan>& scans, const ScanPairs& pairs,
                                            std::size_t scan, const std::vector<Eigen::Isometry3d>& T_reference_scan);
 
+/// Of each pair, in the pairs' order.
+std::vector<FreeSpaceEvidence> free_space_of_pairs(const std::vector<PreparedScan>& scans, const ScanPairs& pairs,
+                                                   const std::vector<Eigen::Isometry3d>& T_reference_scan,
+                                                   int num_threads);
+
 /// Of each scan, summed over the pairs it is in.
-std::vector<FreeSpaceEvidence> free_space_of_neighbors(const std::vector<PreparedScan>& scans, const ScanPairs& pairs,
-                                                       const std::vector<Eigen::Isometry3d>& T_reference_scan,
-                                                       int num_threads);
+std::vector<FreeSpaceEvidence> free_space_of_neighbors(std::size_t num_scans, const ScanPairs& pairs,
+                                                       const std::vector<FreeSpaceEvidence>& of_pairs);
 
 /// One record a pair, in the pairs' order.
+/// @param free_space  of the pairs, at the same poses
 std::vector<LinkRecord> verify_links(const std::vector<PreparedScan>& scans, const ScanPairs& pairs,
+                                     const std::vector<FreeSpaceEvidence>& free_space,
                                      const std::vector<Eigen::Isometry3d>& T_reference_scan, int num_threads);
 
 }  // namespace tcm_icp

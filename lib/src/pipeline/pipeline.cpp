@@ -191,11 +191,12 @@ class Run {
   void complete(AdjustedSet& set) {
     if (paper()) {
       set.pairs = overlapping_pairs(scans_, set.T_reference_scan, set.placed, kMinLinkOverlap, context_.num_threads);
+      set.free_space_of_pairs.assign(set.pairs.size(), {});  // without viewpoints
     } else {
       clock_.begin("adjust and verify");
       adjust_and_verify(scans_, graph_, resolutions_, options_, context_, set);
     }
-    set.links = verify_links(scans_, set.pairs, set.T_reference_scan, context_.num_threads);
+    set.links = verify_links(scans_, set.pairs, set.free_space_of_pairs, set.T_reference_scan, context_.num_threads);
     if (!paper()) {
       measure_uncertainty(scans_, set.pairs, set.reference, resolutions_, set.T_reference_scan, context_.num_threads,
                           set.uncertainty, set.links);
