@@ -5,8 +5,8 @@
 
 #include "merged_cloud.hpp"
 #include "pair_search.hpp"
-#include "scan_sight.hpp"
 #include "scan_set.hpp"
+#include "scan_sight.hpp"
 
 namespace tcm_icp {
 namespace {
@@ -77,8 +77,8 @@ FreeSpaceEvidence free_space_of_members(const AdjustedSet& a, const AdjustedSet&
   FreeSpaceEvidence sum;
   for (const std::size_t i : members_of(a)) {
     for (const std::size_t j : members_of(b)) {
-      sum += free_space(input.scans[i], input.scans[j],
-                        a.T_reference_scan[i].inverse() * T_a_b * b.T_reference_scan[j]);
+      sum +=
+          free_space(input.scans[i], input.scans[j], a.T_reference_scan[i].inverse() * T_a_b * b.T_reference_scan[j]);
     }
   }
   return sum;

@@ -19,8 +19,8 @@ constexpr std::size_t kMaxFits = 3;
 constexpr int kMaxPrograms = 20;  // a fit of a right pose takes ten; others go round in circles
 constexpr double kFirstGate = 8, kLastGate = 2, kGateShrink = 0.6;  // gates in coarse voxels
 
-// Free space tells before a fit: right poses of real scenes, off by up to four coarse voxels, came to 0.04 of violations
-// and less, those whose fits were wrong to 0.08 and more.
+// Free space tells before a fit: right poses of real scenes, off by up to four coarse voxels, came to 0.04 of
+// violations and less, those whose fits were wrong to 0.08 and more.
 constexpr double kHopelessViolations = 0.12;
 
 bool hopeless(const PreparedScan& target, const PreparedScan& source, const Eigen::Isometry3d& T) {

@@ -23,7 +23,8 @@ double share_of_sweep(const Sweep& sweep, const LinePieces& pieces, double toler
 /// The direction that lines have least of: the axis where they run around it over ground, whichever way is up.
 Eigen::Vector3d likely_axis(const LinePieces& pieces);
 
-/// Gauss-Newton from a start that is a few tenths off, one in `stride` of the pieces. O(pieces / stride), some 25 times.
+/// Gauss-Newton from a start that is a few tenths off, one in `stride` of the pieces. O(pieces / stride), some 25
+/// times.
 Sweep fit_sweep(const Sweep& start, const LinePieces& pieces, std::size_t stride);
 
 }  // namespace tcm_icp

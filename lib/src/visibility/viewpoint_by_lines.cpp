@@ -18,8 +18,8 @@ constexpr double kGridPlaces = 4000;
 constexpr std::size_t kGridPieces = 400, kFitPieces = 2000, kStarts = 12;
 constexpr double kRivalDistance = 0.06;
 
-// On real and simulated scans of spinning scanners, whole and thinned, right centres have 0.95 and more, wrong ones 0.83
-// and less.
+// On real and simulated scans of spinning scanners, whole and thinned, right centres have 0.95 and more, wrong ones
+// 0.83 and less.
 constexpr double kMinShare = 0.9, kMaxRivalShare = 0.85;
 constexpr double kSigmas = 3;
 

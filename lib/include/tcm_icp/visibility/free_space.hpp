@@ -9,22 +9,23 @@
 
 namespace tcm_icp {
 
-/// Of matches, by noise, thin things and what moved: right poses have 0.07 and less, a wall's wrong face 0.3 and more.
+/// Of a link's matches in the joint adjustment, by noise, thin things and what moved. Beyond it those of opposite sides
+/// are not used.
 constexpr double kMaxOpposedShare = 0.12;
 
 /// What speaks against a pose. That nothing does, or that a scan has no viewpoint, speaks for none.
 struct FreeSpaceEvidence {
   std::size_t num_points = 0;     ///< smooth points of one scan at surfaces the other saw, or before them
   std::size_t num_violating = 0;  ///< of these, before them: the other looked through
-  std::size_t num_matches = 0;    ///< points of both that meet, the side known that was seen of each
+  std::size_t num_matches = 0;    ///< surfaces of both that meet, the side known that was seen of each
   std::size_t num_opposed = 0;    ///< of these, opposite sides
 
   double violation_share() const { return share(num_violating, num_points); }
   double opposed_share() const { return share(num_opposed, num_matches); }
   /// Whether enough points were looked at for violations to show: only then does it mean anything that there are none.
   bool tells() const;
-  /// The larger of both shares in units of the most that noise, or what moved between the scans, may make; 0 where too
-  /// few points tell.
+  /// The larger of both shares in units of the most that noise, chance, or what moved between the scans, may make; 0
+  /// where too few points tell.
   double excess() const;
   bool vetoes() const { return excess() > 1; }
   FreeSpaceEvidence& operator+=(const FreeSpaceEvidence& other);
