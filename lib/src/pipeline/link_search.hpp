@@ -48,8 +48,8 @@ struct CandidateLink {
 };
 
 /// Fits each coarse candidate of a pair by linear programs over a light sample and takes its evidence. Candidates that
-/// fit to the same pose are one hypothesis. Where free space vetoes a pose, another one is tried; candidates at which far
-/// too much is seen through walls are not even fitted.
+/// fit to the same pose are one hypothesis. Where free space vetoes a pose, another one is tried; candidates at which
+/// far too much is seen through walls are not even fitted.
 CandidateLink fit_candidates(const std::vector<PreparedScan>& scans, std::size_t a, std::size_t b,
                              const std::vector<PoseCandidate>& candidates, const PipelineOptions& options);
 

@@ -13,7 +13,8 @@
 namespace tcm_icp {
 
 /// Of each scan, in its local frame; while the working clouds are there. By scan lines, else by what hides behind what:
-/// then the origin of the file is one of the places to start from, since a raw scan's origin is its scanner. Reports "finding viewpoints". @throws Cancelled
+/// then the origin of the file is one of the places to start from, since a raw scan's origin is its scanner. Reports
+/// "finding viewpoints". @throws Cancelled
 std::vector<std::optional<Viewpoint>> find_viewpoints(const std::vector<SampledScan>& scans, const RunContext& context);
 
 /// Gives the prepared scans their sight.

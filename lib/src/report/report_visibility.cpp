@@ -13,12 +13,12 @@ Json to_json(const FreeSpaceEvidence& e) {
 
 Json to_json(const Viewpoint& v) {
   const bool by_lines = v.evidence == ViewpointEvidence::kScanLines;
-  return {{"determined", v.determined()},
-          {"evidence", by_lines ? "scan lines" : "occlusion"},
-          {"line_share", by_lines ? Json(v.line_share) : Json()},
-          {"place", {number(v.place.x()), number(v.place.y()), number(v.place.z())}},
-          {"hidden_share", by_lines ? Json() : Json(v.hidden_share)},
-          {"radius_m", number(v.radius_m)}};
+  Json json{{"determined", v.determined()},
+            {"place", {number(v.place.x()), number(v.place.y()), number(v.place.z())}},
+            {"radius_m", number(v.radius_m)},
+            {"evidence", by_lines ? "scan lines" : "occlusion"}};
+  json[by_lines ? "line_share" : "hidden_share"] = by_lines ? v.line_share : v.hidden_share;
+  return json;
 }
 
 }  // namespace tcm_icp

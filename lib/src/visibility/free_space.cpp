@@ -6,7 +6,7 @@
 namespace tcm_icp {
 namespace {
 
-// On real and simulated scenes right poses stay below, wrong ones of interiors lie above (decision 0016).
+// On real and simulated scenes right poses stay below, wrong ones of interiors lie above (decision 0017).
 constexpr double kMaxViolationShare = 0.0175, kVetoedOpposedShare = 0.3;
 constexpr std::size_t kMinCount = 100;  // at fewer, a share of three in a hundred is chance
 
