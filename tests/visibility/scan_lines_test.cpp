@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <vector>
 
 #include "support/box_room.hpp"
@@ -99,6 +100,27 @@ TEST(ScanLines, PiecesThatAgreeOnNoCentreGiveNone) {
   for (auto& t : parallel.directions) t = Vector3d(1, 2, 0.1).normalized();
   EXPECT_FALSE(find(cloud, random));
   EXPECT_FALSE(find(cloud, parallel)) << "as a strip from the air has them";
+}
+
+// A tripod scanner whose mirror turns about a level axis: its lines run up and down, through one vertical axis.
+TEST(ScanLines, VerticalProfilesGiveNoWrongCentre) {
+  Points rays;
+  for (int line = 0; line < 240; ++line) {
+    const double azimuth = 2 * EIGEN_PI * line / 240;
+    for (int k = 0; k < 400; ++k) {
+      const double elevation = (-50 + 0.3 * k) * EIGEN_PI / 180;
+      rays.push_back(kTilted * Vector3d(std::cos(elevation) * std::cos(azimuth),
+                                        std::cos(elevation) * std::sin(azimuth), std::sin(elevation)));
+    }
+  }
+  for (const Vector3d& from : {kScanner, Vector3d(6.8, 1.2, 1.2), Vector3d(1.2, 2.5, 2)}) {
+    const Cloud cloud = testing::scan_room(testing::furnished_room(), from, rays);
+    EXPECT_GT(pieces_of(cloud).middles.size(), 1000u);
+    const auto found = find(cloud);
+    if (found) {
+      EXPECT_LT((found->place - from).norm(), 0.05) << from.transpose();
+    }
+  }
 }
 
 TEST(ScanLines, TheSameNumbersGiveTheSameBits) {
