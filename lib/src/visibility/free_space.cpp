@@ -14,7 +14,7 @@ constexpr std::size_t kPoints = 3000;
 // Clearly before a surface: a coarse voxel, and what the viewpoint and a bin's width leave open.
 constexpr double kClearOfVoxel = 1, kClearOfRange = 0.03;
 constexpr double kMinIncidenceCosine = 0.2;  // nearly along a surface, a bin holds any range
-constexpr int kMinFilled = 3;                // what is seen must be a surface, not a leaf
+constexpr int kMinFilled = 4;  // two lines of a scanner at least: what is seen must be a surface, not a leaf
 constexpr double kMinNormalCosine = 0.7;
 constexpr double kSamePlane = 0.25;  // [voxels] thin things have both sides within a voxel, but not at one place
 
