@@ -42,6 +42,9 @@ TEST(ScanPyramid, LevelForIsTheCoarsestThatIsFineEnough) {
   EXPECT_EQ(&pyramid.level_for(0.5), &pyramid.level(1));
   EXPECT_EQ(&pyramid.level_for(1.0), &pyramid.level(2));
   EXPECT_EQ(&pyramid.level_for(100), &pyramid.level(2));
+  // 8 x 0.75 / 3 voxels are two, whatever rounding says.
+  EXPECT_EQ(&pyramid.level_for(0.5 * (1 - 1e-12)), &pyramid.level(1));
+  EXPECT_EQ(&pyramid.level_for(0.5 * (1 - 1e-3)), &pyramid.level(0));
 }
 
 TEST(VoxelSizeFor, FindsAboutTheWantedNumberOfVoxels) {

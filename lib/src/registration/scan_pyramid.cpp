@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/tie.hpp"
 #include "tcm_icp/core/error.hpp"
 #include "tcm_icp/core/voxel_sampler.hpp"
 
@@ -26,7 +27,8 @@ ScanPyramid::ScanPyramid(const Cloud& cloud, double finest_voxel_m, std::size_t 
 
 const PyramidLevel& ScanPyramid::level_for(double size_m) const {
   std::size_t i = 0;
-  while (i + 1 < levels_.size() && levels_[i + 1].voxel_size_m <= size_m) ++i;
+  // Gates are round multiples of the finest voxel, so that sizes and levels are often equal but for rounding.
+  while (i + 1 < levels_.size() && !clearly_less(size_m, levels_[i + 1].voxel_size_m)) ++i;
   return levels_[i];
 }
 

@@ -29,7 +29,7 @@ class ScanPyramid {
   const PyramidLevel& level(std::size_t i) const { return levels_[i]; }
   std::size_t num_levels() const { return levels_.size(); }
 
-  /// The coarsest level whose voxels are not larger than `size_m`; the finest where all are.
+  /// The coarsest level whose voxels are not larger than `size_m`, but for rounding; the finest where all are.
   const PyramidLevel& level_for(double size_m) const;
 
  private:
