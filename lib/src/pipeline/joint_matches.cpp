@@ -5,7 +5,7 @@
 
 #include "tcm_icp/core/parallel.hpp"
 #include "tcm_icp/registration/match_precision.hpp"
-#include "tcm_icp/visibility/free_space.hpp"
+#include "tcm_icp/visibility/sight.hpp"
 
 namespace tcm_icp {
 namespace {
@@ -14,6 +14,8 @@ namespace {
 // up to this many times its whole sample, as far as no part is less than a third.
 constexpr std::size_t kSamplesOfScan = 3, kMostParts = 3;
 constexpr double kNormalAngle = std::numbers::pi / 6;
+// Of a link's matches, by noise, thin things and what moved. Beyond it those of opposite sides are not used.
+constexpr double kMaxOpposedShare = 0.12;
 
 std::size_t parts_for(std::size_t num_neighbors) {
   return std::clamp<std::size_t>((num_neighbors + kSamplesOfScan - 1) / kSamplesOfScan, 1, kMostParts);

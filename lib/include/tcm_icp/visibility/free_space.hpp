@@ -9,10 +9,6 @@
 
 namespace tcm_icp {
 
-/// Of a link's matches in the joint adjustment, by noise, thin things and what moved. Beyond it those of opposite sides
-/// are not used.
-constexpr double kMaxOpposedShare = 0.12;
-
 /// What speaks against a pose. That nothing does, or that a scan has no viewpoint, speaks for none.
 struct FreeSpaceEvidence {
   std::size_t num_points = 0;     ///< smooth points of one scan at surfaces the other saw, or before them
