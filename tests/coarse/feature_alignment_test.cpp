@@ -77,13 +77,16 @@ TEST(FeatureAlignment, CandidatesAreSortedRigidAndFew) {
 TEST(FeatureAlignment, IsTheSameInAllUnits) {
   DescribedScene s = yard(0, 6);
   const auto metres = align_by_features(s.view(0), s.view(1), {});
-  for (auto& scan : s.scene.scans) scan = testing::scaled_cloud(scan, 1024);  // a power of two: the same bits
-  s.scene.spacing_m *= 1024;
+  constexpr double kFactor = 1000;
+  for (auto& scan : s.scene.scans) scan = testing::scaled_cloud(scan, kFactor);
+  s.scene.spacing_m *= kFactor;
   const DescribedScene scaled = describe(s.scene);
   const auto other = align_by_features(scaled.view(0), scaled.view(1), {});
   ASSERT_EQ(metres.size(), other.size());
-  EXPECT_TRUE(testing::is_pose_near(testing::scaled_pose(metres.front().T_target_source, 1024),
-                                    other.front().T_target_source, 1e-3, 1));
+  for (std::size_t k = 0; k < metres.size(); ++k) {
+    EXPECT_TRUE(testing::is_pose_near(testing::scaled_pose(metres[k].T_target_source, kFactor),
+                                      other[k].T_target_source, 1e-9 * kFactor, 1e-9));
+  }
 }
 
 TEST(FeatureAlignment, ScoresStrangersBelowNeighbours) {

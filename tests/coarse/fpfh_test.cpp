@@ -59,8 +59,9 @@ TEST(Fpfh, IsUnchangedByTheSignsOfTheNormals) {
 
 TEST(Fpfh, IsUnchangedByScale) {
   const Cloud cloud = yard(4);
-  EXPECT_GT(least_likeness(fpfh(cloud, kRadius_m), fpfh(testing::scaled_cloud(cloud, 1000), 1000 * kRadius_m)),
-            1 - kTolerance);
+  const Descriptors expected = fpfh(cloud, kRadius_m);
+  ASSERT_FALSE(expected.isZero(0));
+  EXPECT_EQ(fpfh(testing::scaled_cloud(cloud, 1000), 1000 * kRadius_m), expected) << "not the same bits";
 }
 
 TEST(Fpfh, IsZeroWithoutNormalOrNeighbor) {

@@ -122,9 +122,9 @@ TEST(HeightCorrelation, ScalesWithTheInput) {
   for (const auto& scan : scene.scans) large.push_back(scaled_cloud(scan, kFactor));
   const auto expected = correlate_height_maps(pointers(scene.scans), {{0, 1}}, {}, 1)[0].front();
   const auto actual = correlate_height_maps(pointers(large), {{0, 1}}, {}, 1)[0].front();
-  // Rounding may move a point across the edge of a cell.
+  EXPECT_EQ(actual.score, expected.score) << "not the same bits";
   EXPECT_LT(pose_rmse_m(scaled_pose(expected.T_target_source, kFactor), actual.T_target_source, large[1].points),
-            0.1 * kFactor);
+            1e-9 * kFactor);
 }
 
 TEST(HeightCorrelation, AnswersForDegenerateScans) {

@@ -33,8 +33,8 @@ TEST(HeightMap, KeepsTheHighestPointOfACell) {
   const auto row = static_cast<int>(std::lround(tower.y())) + map.size / 2;
   const auto at = static_cast<std::size_t>(row * map.size + column);
   EXPECT_EQ(map.mask[at], 1);
-  EXPECT_NEAR(map.height_m[at], tower.z(), 1e-6);
-  EXPECT_NEAR(map.height_m[at + 1], tower.z() - 7, 1e-6);
+  EXPECT_NEAR(map.height[at], tower.z(), 1e-6);
+  EXPECT_NEAR(map.height[at + 1], tower.z() - 7, 1e-6);
   EXPECT_EQ(std::max_element(map.detail.begin(), map.detail.end()) - map.detail.begin(),
             static_cast<std::ptrdiff_t>(at));
 }
@@ -85,7 +85,7 @@ TEST(HeightMap, ForgetsASlope) {
   for (int row = a.size / 2 - 9; row <= a.size / 2 + 9; ++row) {
     for (int column = a.size / 2 - 9; column <= a.size / 2 + 9; ++column) {
       const auto k = static_cast<std::size_t>(row * a.size + column);
-      height_difference += std::abs(a.height_m[k] - b.height_m[k]);
+      height_difference += std::abs(a.height[k] - b.height[k]);
       detail_difference += std::abs(a.detail[k] - b.detail[k]);
       ++num_cells;
     }

@@ -108,6 +108,31 @@ TEST(SetPrecisions, NeitherTheOrderOfLinksNorASecondCallChangesThem) {
   }
 }
 
+// Two points that are each other's nearest make a match of both links: one agreement, summed in another order.
+TEST(SetPrecisions, DoNotDependOnTheRoundingOfAgreements) {
+  Rng rng = make_stream(5, "match_precision_test");
+  const testing::JointScene scene = half_rough_scene(rng);
+  const auto precisions = [&] {
+    std::vector<JointLink> links = scene.links;
+    for (std::size_t l = 0; l + 1 < links.size(); l += 2) {
+      for (std::size_t k = 0; k < std::min(links[l].matches.size(), links[l + 1].matches.size()); ++k) {
+        links[l + 1].matches[k].agreement = links[l].matches[k].agreement * (1 + 1e-15 * standard_normal(rng));
+      }
+    }
+    // One below and one above all twins, so that borders are drawn at the second of two.
+    links[0].matches[0].agreement = 0;
+    links[1].matches[0].agreement = 1;
+    set_precisions(links);
+    std::vector<double> out;
+    for (const auto& link : links) {
+      for (const auto& match : link.matches) out.push_back(match.precision);
+    }
+    return out;
+  };
+  const std::vector<double> expected = precisions();
+  for (int draw = 0; draw < 20; ++draw) ASSERT_EQ(precisions(), expected);
+}
+
 TEST(SetPrecisions, AreFiniteWhereThereIsNothingOrNoErrorToGoBy) {
   std::vector<JointLink> none;
   set_precisions(none);

@@ -54,7 +54,7 @@ int CompatibilityGraph::num_common(std::size_t i, std::size_t j) const {
   return static_cast<int>(total);
 }
 
-CompatibilityGraph::CompatibilityGraph(const MatchedPoints& matches, float tolerance_m, float min_length_m,
+CompatibilityGraph::CompatibilityGraph(const MatchedPoints& matches, float tolerance, float min_length,
                                        float normal_tolerance)
     : size_(static_cast<std::size_t>(matches.size())), words_((size_ + 63) / 64), bits_(size_ * words_, 0) {
   const Coordinates target = matches.target.transpose(), source = matches.source.transpose();
@@ -68,7 +68,7 @@ CompatibilityGraph::CompatibilityGraph(const MatchedPoints& matches, float toler
     cosines_with(target_normal, k, cos_a);
     cosines_with(source_normal, k, cos_b);
     // The largest of the three, each below 0 where it holds: one number to look at.
-    excess = ((a - b).abs() - tolerance_m).max((cos_a - cos_b).abs() - normal_tolerance).max(min_length_m - a.min(b));
+    excess = ((a - b).abs() - tolerance).max((cos_a - cos_b).abs() - normal_tolerance).max(min_length - a.min(b));
     for (std::size_t j = i + 1; j < size_; ++j) {
       if (excess[static_cast<Eigen::Index>(j - i - 1)] < 0) join(i, j);
     }

@@ -9,7 +9,8 @@
 
 namespace tcm_icp {
 
-/// Matched points with unit normals (axes), one column a match [m].
+/// Matched points with unit normals (axes), one column a match. In voxels of their level: floats of metres would be
+/// rounded otherwise in another unit (decision 0015).
 struct MatchedPoints {
   Eigen::Matrix3Xf target, source, target_normal, source_normal;
   Eigen::Index size() const { return target.cols(); }
@@ -18,9 +19,9 @@ struct MatchedPoints {
 /// Undirected graph over matches, one row of bits each.
 class CompatibilityGraph {
  public:
-  /// Joins two matches where the distance between the points is the same in both scans within `tolerance_m`, is at
-  /// least `min_length_m`, and the angle between the normals is the same within `normal_tolerance` (of its cosine).
-  CompatibilityGraph(const MatchedPoints& matches, float tolerance_m, float min_length_m, float normal_tolerance);
+  /// Joins two matches where the distance between the points is the same in both scans within `tolerance`, is at
+  /// least `min_length`, and the angle between the normals is the same within `normal_tolerance` (of its cosine).
+  CompatibilityGraph(const MatchedPoints& matches, float tolerance, float min_length, float normal_tolerance);
 
   std::size_t size() const { return size_; }
   const std::uint64_t* row(std::size_t i) const { return bits_.data() + i * words_; }

@@ -24,7 +24,7 @@ float for_each_holding(const MatchedPoints& matches, const Eigen::Isometry3f& T,
                        Visit visit) {
   const Eigen::Matrix3f R = T.linear();
   const Eigen::Vector3f t = T.translation();
-  const float tolerance2 = options.tolerance_m * options.tolerance_m;
+  const float tolerance2 = options.tolerance * options.tolerance;
   float votes = 0;
   for (Eigen::Index m = 0; m < matches.size(); ++m) {
     const float squared = (R * matches.source.col(m) + t - matches.target.col(m)).squaredNorm();
@@ -41,7 +41,7 @@ class Search {
   Search(const MatchedPoints& matches, const ConsensusOptions& options)
       : matches_(matches),
         options_(options),
-        graph_(matches, options.tolerance_m, options.min_length_m, options.normal_tolerance) {}
+        graph_(matches, options.tolerance, options.min_length, options.normal_tolerance) {}
 
   std::vector<ConsensusPose> run() {
     count_triangles();

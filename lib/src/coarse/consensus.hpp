@@ -10,15 +10,15 @@
 namespace tcm_icp {
 
 struct ConsensusOptions {
-  float tolerance_m = 0;          ///< > 0; of a length, and of a match under a pose
-  float min_length_m = 0;         ///< of an edge of the graph
+  float tolerance = 0;            ///< [voxels] > 0; of a length, and of a match under a pose
+  float min_length = 0;           ///< [voxels] of an edge of the graph
   float normal_tolerance = 0.2F;  ///< of the cosine between two normals
   std::size_t max_poses = 16;
   std::size_t max_members = 30;  ///< matches of a seed's first fit
 };
 
 struct ConsensusPose {
-  Eigen::Isometry3f T_target_source = Eigen::Isometry3f::Identity();
+  Eigen::Isometry3f T_target_source = Eigen::Isometry3f::Identity();  ///< [voxels]
   float votes = 0;  ///< matches that hold, each counted by how well it does
 };
 

@@ -11,7 +11,7 @@ namespace tcm_icp {
 struct Envelope {
   double cell_m = 0;
   int width = 0, height = 0;
-  std::vector<float> lowest_m, highest_m;  ///< NaN where the cell is empty; row by row
+  std::vector<float> lowest, highest;  ///< [cells] NaN where the cell is empty; row by row
 
   int num_occupied() const;
 };
@@ -22,9 +22,9 @@ Eigen::Matrix3d levelling_rotation(const Eigen::Vector3d& up);
 /// Envelope of the points turned by `R_level_scan`.
 Envelope make_envelope(const Points& points, const Eigen::Matrix3d& R_level_scan, double cell_m);
 
-/// Typical step between occupied neighbours of the grid: geometric mean of the steps' median and upper quartile, since
-/// the one alone is nearly equal on both sides of a sparse scan, the other on both sides of a room; infinity where no
-/// cells touch.
-double roughness_m(const Envelope& envelope, const std::vector<float>& heights_m);
+/// Typical step [cells] between occupied neighbours of the grid: geometric mean of the steps' median and upper
+/// quartile, since the one alone is nearly equal on both sides of a sparse scan, the other on both sides of a room;
+/// infinity where no cells touch.
+double roughness(const Envelope& envelope, const std::vector<float>& heights);
 
 }  // namespace tcm_icp

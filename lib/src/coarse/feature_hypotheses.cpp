@@ -19,17 +19,22 @@ constexpr double kCheckGateVoxels = 2;
 constexpr double kCheckToleranceVoxels = 0.5;
 constexpr double kCheckNormalCosine = 0.94;
 
-// Matches of one level, each scan about its own middle, so that floats hold the coordinates.
+// Matches of one level in voxels, each scan about its own middle, so that floats hold the coordinates.
 struct LevelMatches {
+  double voxel_m = 0;
   MatchedPoints points;
   ConsensusOptions options;
   Eigen::Vector3d target_middle = Eigen::Vector3d::Zero(), source_middle = Eigen::Vector3d::Zero();
 
   Eigen::Isometry3d to_frames(const Eigen::Isometry3f& T) const {
-    return Eigen::Translation3d(target_middle) * T.cast<double>() * Eigen::Translation3d(-source_middle);
+    Eigen::Isometry3d in_metres = T.cast<double>();
+    in_metres.translation() *= voxel_m;
+    return Eigen::Translation3d(target_middle) * in_metres * Eigen::Translation3d(-source_middle);
   }
   Eigen::Isometry3f to_middles(const Eigen::Isometry3d& T) const {
-    return (Eigen::Translation3d(-target_middle) * T * Eigen::Translation3d(source_middle)).cast<float>();
+    Eigen::Isometry3d in_voxels = Eigen::Translation3d(-target_middle) * T * Eigen::Translation3d(source_middle);
+    in_voxels.translation() /= voxel_m;
+    return in_voxels.cast<float>();
   }
 };
 
@@ -44,10 +49,11 @@ LevelMatches match_level(const ScanFeatures& target, const ScanFeatures& source,
   const auto matches = match_features(target.descriptors, source.descriptors);
   const auto count = static_cast<Eigen::Index>(matches.size());
   LevelMatches out;
+  out.voxel_m = target.voxel_size_m;
   out.target_middle = middle(target.keypoints.points);
   out.source_middle = middle(source.keypoints.points);
-  out.options.tolerance_m = static_cast<float>(options.tolerance_voxels * target.voxel_size_m);
-  out.options.min_length_m = static_cast<float>(options.min_length_voxels * target.voxel_size_m);
+  out.options.tolerance = static_cast<float>(options.tolerance_voxels);
+  out.options.min_length = static_cast<float>(options.min_length_voxels);
   out.options.normal_tolerance = static_cast<float>(options.max_normal_cosine_difference);
   out.options.max_poses = static_cast<std::size_t>(options.max_hypotheses);
   for (auto* m : {&out.points.target, &out.points.source, &out.points.target_normal, &out.points.source_normal}) {
@@ -55,8 +61,8 @@ LevelMatches match_level(const ScanFeatures& target, const ScanFeatures& source,
   }
   for (Eigen::Index k = 0; k < count; ++k) {
     const FeatureMatch& m = matches[static_cast<std::size_t>(k)];
-    out.points.target.col(k) = (target.keypoints.points[m.target] - out.target_middle).cast<float>();
-    out.points.source.col(k) = (source.keypoints.points[m.source] - out.source_middle).cast<float>();
+    out.points.target.col(k) = ((target.keypoints.points[m.target] - out.target_middle) / out.voxel_m).cast<float>();
+    out.points.source.col(k) = ((source.keypoints.points[m.source] - out.source_middle) / out.voxel_m).cast<float>();
     out.points.target_normal.col(k) = target.keypoints.normals[m.target].cast<float>();
     out.points.source_normal.col(k) = source.keypoints.normals[m.source].cast<float>();
   }

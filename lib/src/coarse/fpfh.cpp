@@ -31,11 +31,12 @@ float share_of_same_side(float cosine) {
 }
 
 struct Surface {
-  std::vector<Vector3f> points, normals;
-  explicit Surface(const Cloud& cloud) {
+  std::vector<Vector3f> points, normals;  // points in radii of the neighbourhood
+  Surface(const Cloud& cloud, double radius_m) {
     for (std::size_t i = 0; i < cloud.size(); ++i) {
-      // About the first point: floats would lose the millimetres of far coordinates.
-      points.push_back((cloud.points[i] - cloud.points.front()).cast<float>());
+      // About the first point: floats would lose the millimetres of far coordinates. In radii: floats of metres would
+      // be rounded otherwise in another unit (decision 0015).
+      points.push_back(((cloud.points[i] - cloud.points.front()) / radius_m).cast<float>());
       normals.push_back(cloud.normals[i].cast<float>());
     }
   }
@@ -82,12 +83,12 @@ float height_of_neighbors(const Histogram& h) {
 }
 
 Histogram weighted_sum(const Surface& s, const Histograms& simple, std::size_t i,
-                       std::span<const std::uint32_t> neighbors, float radius) {
+                       std::span<const std::uint32_t> neighbors) {
   Histogram same = Histogram::Zero(), opposite = Histogram::Zero();
   float total = 0;
   for (const std::uint32_t j : neighbors) {
     const float share = share_of_same_side(s.normals[i].dot(s.normals[j]));
-    const float weight = radius / (0.1F * radius + (s.points[j] - s.points[i]).norm());
+    const float weight = 1 / (0.1F + (s.points[j] - s.points[i]).norm());
     total += weight;
     if (share > 0) same += weight * share * simple.col(j);
     if (share < 1) opposite += weight * (1 - share) * simple.col(j);
@@ -102,7 +103,7 @@ Descriptors fpfh(const Cloud& cloud, const RadiusNeighbors& neighbors, double ra
   const auto count = static_cast<Eigen::Index>(cloud.size());
   Histograms simple = Histograms::Zero(kFpfhSize, count), out = Histograms::Zero(kFpfhSize, count);
   if (cloud.empty()) return out;
-  const Surface surface(cloud);
+  const Surface surface(cloud, radius_m);
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     if (!surface.normals[i].isZero(0)) {
       simple_histogram(surface, i, neighbors.of(i), simple.col(static_cast<Eigen::Index>(i)).data());
@@ -110,7 +111,7 @@ Descriptors fpfh(const Cloud& cloud, const RadiusNeighbors& neighbors, double ra
   }
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     if (simple.col(static_cast<Eigen::Index>(i)).isZero(0)) continue;
-    Histogram h = weighted_sum(surface, simple, i, neighbors.of(i), static_cast<float>(radius_m));
+    Histogram h = weighted_sum(surface, simple, i, neighbors.of(i));
     if (height_of_neighbors(h) < 0) h = turned(h);
     out.col(static_cast<Eigen::Index>(i)) = h.cwiseMax(0).cwiseSqrt().normalized();
   }

@@ -147,7 +147,7 @@ HeightMap make_height_map(const Cloud& cloud, const Footprint& footprint, double
   map.cell_m = cell_m;
   map.size = 2 * (static_cast<int>(footprint.radius_m / cell_m) + 1);
   const auto n = static_cast<std::size_t>(map.size);
-  map.height_m.assign(n * n, 0.0F);
+  map.height.assign(n * n, 0.0F);
   map.mask.assign(n * n, 0.0F);
   const double half = map.size / 2 + 0.5;
   std::vector<float> walls(n * n, 0.0F), all(n * n, 0.0F);
@@ -157,8 +157,8 @@ HeightMap make_height_map(const Cloud& cloud, const Footprint& footprint, double
     const double column = std::floor(p.x() / cell_m + half), row = std::floor(p.y() / cell_m + half);
     if (!(column >= 0 && column < map.size && row >= 0 && row < map.size)) continue;
     const std::size_t k = static_cast<std::size_t>(row) * n + static_cast<std::size_t>(column);
-    const auto h = static_cast<float>(p.z());
-    if (map.mask[k] == 0 || h > map.height_m[k]) map.height_m[k] = h;
+    const auto h = static_cast<float>(p.z() / cell_m);
+    if (map.mask[k] == 0 || h > map.height[k]) map.height[k] = h;
     map.mask[k] = 1;
     all[k] += 1;
     if (cloud.has_normals() && is_wall(R_map_scan * cloud.normals[i])) walls[k] += 1;
@@ -167,7 +167,7 @@ HeightMap make_height_map(const Cloud& cloud, const Footprint& footprint, double
   const auto weights = half_gaussian(options.smoothing_cells);
   const auto seen = smooth(map.mask, map.size, weights);
   const auto clip_sigma = static_cast<float>(options.clip_sigma);
-  map.detail = find_detail(map.height_m, map, seen, weights, clip_sigma);
+  map.detail = find_detail(map.height, map, seen, weights, clip_sigma);
   std::vector<float> structure(n * n);
   for (std::size_t k = 0; k < n * n; ++k) {
     if (map.mask[k] != 0) structure[k] = walls[k] / all[k];

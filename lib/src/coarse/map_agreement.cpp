@@ -104,7 +104,7 @@ MapCells list_cells(const HeightMap& map, std::size_t max_cells) {
                                 static_cast<float>(k / n) - static_cast<float>(map.size / 2));
       out.detail.push_back(map.detail[k]);
       out.structure.push_back(map.structure[k]);
-      out.height_m.push_back(map.height_m[k]);
+      out.height.push_back(map.height[k]);
     }
     ++i;
   }
@@ -153,9 +153,9 @@ SharedCells shared_cells(const HeightMap& target, const HeightMap& source, const
         static_cast<std::size_t>(row) * static_cast<std::size_t>(target.size) + static_cast<std::size_t>(column);
     if (target.mask[k] == 0) continue;
     out.target.emplace_back((column - target.size / 2) * target.cell_m, (row - target.size / 2) * target.cell_m,
-                            target.height_m[k]);
+                            target.height[k] * target.cell_m);
     out.source.emplace_back(cells.position[i].x() * source.cell_m, cells.position[i].y() * source.cell_m,
-                            cells.height_m[i]);
+                            cells.height[i] * source.cell_m);
   }
   return out;
 }

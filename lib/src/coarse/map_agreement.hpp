@@ -9,7 +9,7 @@ namespace tcm_icp {
 /// The seen cells of a map, at most so many, evenly spread.
 struct MapCells {
   std::vector<Eigen::Vector2f> position;  ///< [cells] from the middle of the map
-  std::vector<float> detail, structure, height_m;
+  std::vector<float> detail, structure, height;
   double share = 1;  ///< of the map's seen cells
 };
 

@@ -158,7 +158,7 @@ std::vector<Eigen::Vector3d> find_up_directions(const Cloud& cloud, const Vertic
   std::vector<Eigen::Vector3d> up;
   for (const Axis& axis : kept) {
     const Envelope envelope = make_envelope(cloud.points, levelling_rotation(axis.direction), cell_m);
-    const double low = roughness_m(envelope, envelope.lowest_m), high = roughness_m(envelope, envelope.highest_m);
+    const double low = roughness(envelope, envelope.lowest), high = roughness(envelope, envelope.highest);
     const double sign = high < low ? -1 : 1;
     up.push_back(sign * axis.direction);
     // Where both are zero nothing is shown either.

@@ -27,12 +27,6 @@ void check_input(const std::vector<TwistFrame>& frames, std::size_t fixed, const
   }
 }
 
-double median_nonzero(const std::vector<double>& magnitudes) {
-  std::vector<double> values;
-  std::copy_if(magnitudes.begin(), magnitudes.end(), std::back_inserter(values), [](double v) { return v > 0; });
-  return values.empty() ? 0 : median(values);
-}
-
 // The dual: max d'y, A'y = 0, |y| <= 1. One column a match, then one a coordinate that holds it still.
 class DualProgram {
  public:

@@ -49,15 +49,6 @@ Eigen::VectorXd column_scales(const Eigen::MatrixXd& A) {
   return scales.unaryExpr([](double scale) { return scale > 0 ? scale : 1.0; });
 }
 
-double median_nonzero_magnitude(const Eigen::VectorXd& d) {
-  std::vector<double> magnitudes;
-  for (const double value : d) {
-    if (value != 0) magnitudes.push_back(std::abs(value));
-  }
-  if (magnitudes.empty()) return 0;
-  return median(magnitudes);
-}
-
 LinearProgram dual_program(const Eigen::MatrixXd& A, const Eigen::VectorXd& d, const Eigen::VectorXd& weights,
                            const L1FitOptions& options) {
   LinearProgram lp;
@@ -73,7 +64,8 @@ LinearProgram dual_program(const Eigen::MatrixXd& A, const Eigen::VectorXd& d, c
 
 // Fills all of `result` but objective and seconds.
 void solve_scaled(const Rows& rows, const L1FitOptions& options, L1FitResult& result) {
-  const double d_scale = median_nonzero_magnitude(rows.d);
+  const Eigen::VectorXd magnitudes = rows.d.cwiseAbs();
+  const double d_scale = median_nonzero({magnitudes.begin(), magnitudes.end()});
   const Eigen::VectorXd scales = column_scales(rows.A);
   const Eigen::MatrixXd scaled_A = rows.A * scales.cwiseInverse().asDiagonal();
   const Eigen::MatrixXd basis = determined_directions(scaled_A, options.rank_tolerance);

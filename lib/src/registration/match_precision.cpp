@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/tie.hpp"
 #include "tcm_icp/core/statistics.hpp"
 
 namespace tcm_icp {
@@ -34,8 +35,11 @@ void set_precisions(std::vector<JointLink>& links) {
   }
   if (distances.empty()) return;
   const std::vector<double> borders = class_borders(agreements);
+  // Two points that are each other's nearest are a match of both links, with one agreement but for rounding: a border
+  // between the two would be drawn by rounding.
   const auto class_of = [&](double agreement) {
-    return static_cast<std::size_t>(std::upper_bound(borders.begin(), borders.end(), agreement) - borders.begin());
+    return static_cast<std::size_t>(std::upper_bound(borders.begin(), borders.end(), agreement, clearly_less) -
+                                    borders.begin());
   };
   std::vector<std::vector<double>> of_class(borders.size() + 1);
   for (std::size_t i = 0; i < distances.size(); ++i) of_class[class_of(agreements[i])].push_back(distances[i]);

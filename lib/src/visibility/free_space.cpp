@@ -35,7 +35,7 @@ Tally look(const RangeImage& image, const Cloud& points, double voxel_m) {
     const Eigen::Vector3d ray = points.points[i] - image.place();
     const double range = ray.norm();
     if (std::abs(points.normals[i].dot(ray)) <= kMinIncidenceCosine * range) continue;
-    const RangeImage::Surroundings seen = image.about(ray);
+    const RangeImage::Surroundings seen = image.about(ray / range);
     if (seen.num_filled < kMinFilled) continue;
     const double clear_m = kClearOfVoxel * voxel_m + kClearOfRange * range;
     if (range < seen.least_m - clear_m) {

@@ -10,15 +10,20 @@ namespace {
 
 const DirectionBins kBins(41'253);  // square degrees of a sphere
 
+std::size_t bin_of(const Eigen::Vector3d& direction) {
+  const Eigen::Vector3f d = direction.cast<float>();
+  return static_cast<std::size_t>(kBins(d.x(), d.y(), d.z()));
+}
+
 }  // namespace
 
 RangeImage::RangeImage(const Eigen::Vector3d& place, const Points& points) : place_(place), bins_(kBins.size()) {
-  constexpr float kFar = std::numeric_limits<float>::max();
-  std::vector<float> least(kBins.size(), kFar), greatest(kBins.size(), 0);
+  constexpr double kFar = std::numeric_limits<double>::max();
+  std::vector<double> least(kBins.size(), kFar), greatest(kBins.size(), 0);
   for (const auto& p : points) {
-    const Eigen::Vector3f d = (p - place).cast<float>();
-    const auto bin = static_cast<std::size_t>(kBins(d.x(), d.y(), d.z()));
-    const float range = d.norm();
+    const Eigen::Vector3d ray = p - place;
+    const double range = ray.norm();
+    const std::size_t bin = bin_of(range > 0 ? ray / range : ray);
     least[bin] = std::min(least[bin], range);
     greatest[bin] = std::max(greatest[bin], range);
   }
@@ -36,9 +41,6 @@ RangeImage::RangeImage(const Eigen::Vector3d& place, const Points& points) : pla
   }
 }
 
-RangeImage::Surroundings RangeImage::about(const Eigen::Vector3d& direction) const {
-  const Eigen::Vector3f d = direction.cast<float>();
-  return bins_[static_cast<std::size_t>(kBins(d.x(), d.y(), d.z()))];
-}
+RangeImage::Surroundings RangeImage::about(const Eigen::Vector3d& direction) const { return bins_[bin_of(direction)]; }
 
 }  // namespace tcm_icp

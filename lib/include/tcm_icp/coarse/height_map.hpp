@@ -14,12 +14,13 @@ struct HeightMapOptions {
   void validate() const;        ///< throws InvalidOptions
 };
 
-/// Square grid about the middle of the scan. Cell (row r, column c) is centred on ((c - size/2), (r - size/2)) cells.
+/// Square grid about the middle of the scan. All but `cell_m` and the pose is in cells, so that floats hold the same in
+/// any unit (decision 0015). Cell (row r, column c) is centred on ((c - size/2), (r - size/2)) cells.
 struct HeightMap {
   Eigen::Isometry3d T_map_scan = Eigen::Isometry3d::Identity();  ///< z up, origin over the middle of the scan
   double cell_m = 0;
   int size = 0;                  ///< cells an edge; even
-  std::vector<float> height_m;   ///< row by row; 0 where nothing was seen
+  std::vector<float> height;     ///< [cells] row by row; 0 where nothing was seen
   std::vector<float> detail;     ///< height less its smooth mean, clipped, variance 1; 0 where nothing was seen
   std::vector<float> structure;  ///< the same of the share of points on walls; 0 throughout where normals are missing
   std::vector<float> mask;       ///< 1 where something was seen, 0 elsewhere

@@ -20,6 +20,17 @@ inline double quantile(std::vector<double>& values, double share) {
 /// @pre values is not empty
 inline double median(std::vector<double>& values) { return quantile(values, 0.5); }
 
+/// Median of the magnitudes that are not zero but for rounding, which are those above a billionth of the largest; 0
+/// where all are 0. Of the residuals of an L1 fit as many as it has unknowns are zero, some of them but for rounding.
+/// O(N).
+inline double median_nonzero(std::vector<double> magnitudes) {
+  constexpr double kRoundingShare = 1e-9;
+  if (magnitudes.empty()) return 0;
+  const double largest = *std::max_element(magnitudes.begin(), magnitudes.end());
+  std::erase_if(magnitudes, [&](double value) { return !(value > kRoundingShare * largest); });
+  return magnitudes.empty() ? 0 : median(magnitudes);
+}
+
 /// Standard deviation of normal errors, by the median of their absolute values.
 constexpr double kMadToSigma = 1.4826;
 

@@ -14,8 +14,8 @@ class RangeImage {
  public:
   /// What a scan saw about one direction: in its bin and the eight around it.
   struct Surroundings {
-    float least_m = 0, greatest_m = 0;  ///< [m] ranges
-    int num_filled = 0;                 ///< bins with a point, 0 to 9
+    double least_m = 0, greatest_m = 0;  ///< [m] ranges
+    int num_filled = 0;                  ///< bins with a point, 0 to 9
   };
 
   /// @param points  in the frame of `place`. O(N), about 10 ns a point.
@@ -23,7 +23,7 @@ class RangeImage {
 
   const Eigen::Vector3d& place() const { return place_; }
 
-  /// @param direction  from the place; not zero
+  /// @param direction  from the place; of length 1, so that its bin is the same in any unit
   Surroundings about(const Eigen::Vector3d& direction) const;
 
  private:
