@@ -64,7 +64,7 @@ Inspection inspect_scans(const std::vector<std::filesystem::path>& paths, const 
   if (paths.empty()) throw InvalidOptions("there is no scan to inspect; name at least one file");
   check_paths(paths, initial_poses);
   Inspection out;
-  std::vector<SampledScan> sampled = read_scans(paths, options, context);
+  std::vector<SampledScan> sampled = read_scans(paths, options, context, ScanDetail::kNormals);
   for (const auto& s : sampled) {
     out.scans.push_back(summarize(s));
     out.boxes_m.push_back(raw_box(s.scan));

@@ -85,7 +85,7 @@ PipelineResult run_pairs(const std::vector<std::filesystem::path>& paths, const 
   if (!options.reference.empty()) result.reference = find_scan(paths, options.reference);
   StageClock clock(result.stages);
   clock.begin("read and sample");
-  std::vector<SampledScan> scans = read_scans(paths, options, context, ScanNormals::kNone);
+  std::vector<SampledScan> scans = read_scans(paths, options, context, ScanDetail::kPoints);
   for (const auto& s : scans) result.scans.push_back(summarize(s));
   clock.begin("prepare");
   result.coarse_voxel_m = result.fine_voxel_m =

@@ -50,7 +50,7 @@ class Run {
   bool paper() const { return options_.profile == Profile::kPaper; }
 
   void read(const std::vector<std::filesystem::path>& paths) {
-    sampled_ = read_scans(paths, options_, context_);
+    sampled_ = read_scans(paths, options_, context_, paper() ? ScanDetail::kNormals : ScanDetail::kLinePieces);
     for (const auto& s : sampled_) {
       result_.scans.push_back(summarize(s));
       files_.push_back(s.scan.file);

@@ -62,7 +62,7 @@ Points stream_into_sample(Scan& scan, std::size_t max_points) {
 }  // namespace
 
 SampledScan sample_scan(const std::filesystem::path& path, const PipelineOptions& options, std::uint64_t seed,
-                        int num_threads, ScanNormals normals) {
+                        int num_threads, ScanDetail detail) {
   SampledScan out;
   Scan& scan = out.scan;
   scan.path = path;
@@ -82,8 +82,8 @@ SampledScan sample_scan(const std::filesystem::path& path, const PipelineOptions
   scan.spacing_m = median_spacing(scan.cloud.points, index);
   out.middle = median_point(scan.cloud.points);
   scan.extent_m = robust_extent(scan.cloud.points, out.middle);
-  if (normals == ScanNormals::kNone) return out;
-  out.line_pieces = find_line_pieces(scan.cloud.points, index);
+  if (detail == ScanDetail::kPoints) return out;
+  if (detail == ScanDetail::kLinePieces) out.line_pieces = find_line_pieces(scan.cloud.points, index);
   NormalEstimate estimate = estimate_normals(scan.cloud.points, index, {}, num_threads);
   std::vector<double> roughness;
   for (std::size_t i = 0; i < estimate.normals.size(); ++i) {

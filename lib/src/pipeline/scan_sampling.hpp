@@ -14,19 +14,20 @@ namespace tcm_icp {
 struct SampledScan {
   Scan scan;               ///< working cloud with outliers removed, with a normal at every point that has one
   Points surface_normals;  ///< the same normals, zero where the place is too rough to be a surface
-  LinePieces line_pieces;  ///< of the working cloud; none where it was thinned
+  LinePieces line_pieces;  ///< of the working cloud, if wanted; none where it was thinned
   OutlierRule outliers;
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();  ///< [m] median point of the working cloud
 };
 
-/// Whether a scan needs normals: a conventional ICP does not, and should not pay for them.
-enum class ScanNormals { kEstimated, kNone };
+/// What is found out about a scan while its neighbours are at hand, each with what stands before it. Who does not need
+/// it should not pay for it: a conventional ICP asks for points, the paper's profile for normals.
+enum class ScanDetail { kPoints, kNormals, kLinePieces };
 
 /// Streams the file through a voxel sampler (origin: its first point), learns the outlier rule and applies it to the
-/// working cloud, then estimates normals if they are wanted; without them the noise is 0. Memory follows
+/// working cloud, then finds the detail that is wanted; without normals the noise is 0. Memory follows
 /// max_working_points.
 /// @throws InputError, InvalidInput
 SampledScan sample_scan(const std::filesystem::path& path, const PipelineOptions& options, std::uint64_t seed,
-                        int num_threads, ScanNormals normals = ScanNormals::kEstimated);
+                        int num_threads, ScanDetail detail = ScanDetail::kLinePieces);
 
 }  // namespace tcm_icp

@@ -55,7 +55,7 @@ void check_paths(const std::vector<std::filesystem::path>& paths, const InitialP
 }
 
 std::vector<SampledScan> read_scans(const std::vector<std::filesystem::path>& paths, const PipelineOptions& options,
-                                    const RunContext& context, ScanNormals normals) {
+                                    const RunContext& context, ScanDetail detail) {
   // All headers first: the last file's absence should not cost the reading of all others.
   for (const auto& path : paths) const ScanReader opened(path, ReadAttributes::kNo);
   std::vector<SampledScan> scans(paths.size());
@@ -65,7 +65,7 @@ std::vector<SampledScan> read_scans(const std::vector<std::filesystem::path>& pa
     const std::size_t count = std::min(batch, paths.size() - first);
     parallel_for(context.num_threads, count, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = first + begin; i < first + end; ++i) {
-        scans[i] = sample_scan(paths[i], options, context.seed, 1, normals);
+        scans[i] = sample_scan(paths[i], options, context.seed, 1, detail);
       }
     });
   }

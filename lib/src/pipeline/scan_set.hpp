@@ -26,7 +26,7 @@ void check_paths(const std::vector<std::filesystem::path>& paths, const InitialP
 /// sample_scan() for each file, as many at once as there are threads. Reports "reading".
 /// @throws InputError, InvalidInput, Cancelled
 std::vector<SampledScan> read_scans(const std::vector<std::filesystem::path>& paths, const PipelineOptions& options,
-                                    const RunContext& context, ScanNormals normals = ScanNormals::kEstimated);
+                                    const RunContext& context, ScanDetail detail);
 
 ScanSummary summarize(const SampledScan& scan);
 

@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "place_grid.hpp"
+
 namespace tcm_icp {
 namespace {
 
 // Scanners stand within what they see, or beside it. A flat scan is looked at from above and below, too.
-constexpr std::size_t kGridPlaces = 1200;
+constexpr double kGridPlaces = 1200;
 constexpr float kGridMargin = 0.3F, kLeastMargin = 0.1F;
 
 // As good as the best, but for chance.
@@ -37,14 +39,7 @@ void look_along(HiddenShare& hidden, const Found& from, std::vector<Found>& foun
 
 std::vector<Found> best_of(std::vector<Found> found, std::size_t count, double apart) {
   std::stable_sort(found.begin(), found.end(), [](const Found& a, const Found& b) { return a.hidden < b.hidden; });
-  std::vector<Found> out;
-  for (const Found& f : found) {
-    if (out.size() == count) break;
-    const bool known = std::any_of(
-        out.begin(), out.end(), [&](const Found& o) { return (o.place - f.place).norm() < static_cast<float>(apart); });
-    if (!known) out.push_back(f);
-  }
-  return out;
+  return first_apart(found, count, apart, [](const Found& f) { return f.place; });
 }
 
 Eigen::AlignedBox3f search_box(const Eigen::AlignedBox3f& of_points) {
@@ -53,22 +48,10 @@ Eigen::AlignedBox3f search_box(const Eigen::AlignedBox3f& of_points) {
 }
 
 std::vector<Found> search_grid(HiddenShare& hidden, const Eigen::AlignedBox3f& box, std::size_t count) {
-  const Eigen::Vector3f sizes = box.sizes();
-  const double step = std::cbrt(static_cast<double>(sizes.prod()) / kGridPlaces);
-  Eigen::Array3i counts;
-  for (int k = 0; k < 3; ++k)
-    counts[k] = std::max(1, static_cast<int>(std::lround(sizes[k] / static_cast<float>(step))));
+  const PlaceGrid<float> grid = grid_of_places(box, kGridPlaces);
   std::vector<Found> found;
-  for (int i = 0; i < counts[0]; ++i) {
-    for (int j = 0; j < counts[1]; ++j) {
-      for (int k = 0; k < counts[2]; ++k) {
-        const Eigen::Array3f share = (Eigen::Array3f(i, j, k) + 0.5F) / counts.cast<float>();
-        const Place place = box.min().array() + share * sizes.array();
-        found.push_back({hidden(place), place});
-      }
-    }
-  }
-  return best_of(found, count, 1.5 * step);  // not next to one another
+  for (const Place& place : grid.places) found.push_back({hidden(place), place});
+  return best_of(found, count, kNotNextSteps * grid.step);
 }
 
 void descend(HiddenShare& hidden, double first_step, double last_step, Found& at,

@@ -71,11 +71,14 @@ std::vector<Place> finish(HiddenShare& hidden, const Look& look, Rng& rng, Found
 
 }  // namespace
 
-bool Viewpoint::determined() const { return hidden_share <= kMaxHiddenShare && radius_m <= kMaxRadius * extent_m; }
-
-bool Viewpoint::roughly_determined() const {
-  return hidden_share <= kMaxHiddenShare && radius_m <= kMaxRoughRadius * extent_m;
+bool Viewpoint::within(double share_of_extent) const {
+  const bool sees_all = evidence == ViewpointEvidence::kScanLines || hidden_share <= kMaxHiddenShare;
+  return sees_all && radius_m <= share_of_extent * extent_m;
 }
+
+bool Viewpoint::determined() const { return within(kMaxRadius); }
+
+bool Viewpoint::roughly_determined() const { return within(kMaxRoughRadius); }
 
 std::optional<Viewpoint> find_viewpoint(const Cloud& cloud, std::span<const Eigen::Vector3d> guesses, Rng& rng) {
   const std::optional<UnitFrame> frame = find_unit_frame(cloud, kLastLook.points, kMinPoints, rng);

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "place_grid.hpp"
 #include "place_search.hpp"
 #include "sweep_fit.hpp"
 #include "tcm_icp/visibility/scan_lines.hpp"
@@ -45,30 +46,16 @@ void sort_by_share(std::vector<Scored>& found) {
 }
 
 std::vector<Scored> search_grid_of_centres(const LinePieces& pieces, const Eigen::AlignedBox3d& box) {
-  const Eigen::Vector3d axis = likely_axis(pieces), sizes = box.sizes();
-  const double step = std::cbrt(sizes.prod() / kGridPlaces);
+  const Eigen::Vector3d axis = likely_axis(pieces);
   const std::size_t stride = stride_for(pieces, kGridPieces);
-  const Eigen::Array3i counts = (sizes / step).array().round().cast<int>().max(1);
+  const PlaceGrid<double> grid = grid_of_places(box, kGridPlaces);
   std::vector<Scored> found;
-  for (int i = 0; i < counts[0]; ++i) {
-    for (int j = 0; j < counts[1]; ++j) {
-      for (int k = 0; k < counts[2]; ++k) {
-        const Eigen::Array3d share = (Eigen::Array3d(i, j, k) + 0.5) / counts.cast<double>();
-        const Sweep sweep{box.min() + (share * sizes.array()).matrix(), axis, 0};
-        found.push_back({share_of_sweep(sweep, pieces, kGridTolerance, stride), sweep});
-      }
-    }
+  for (const Eigen::Vector3d& place : grid.places) {
+    const Sweep sweep{place, axis, 0};
+    found.push_back({share_of_sweep(sweep, pieces, kGridTolerance, stride), sweep});
   }
   sort_by_share(found);
-  std::vector<Scored> out;
-  for (const Scored& f : found) {
-    if (out.size() == kStarts) break;
-    const bool known = std::any_of(out.begin(), out.end(), [&](const Scored& o) {
-      return (o.sweep.centre - f.sweep.centre).norm() < 1.5 * step;  // not next to one another
-    });
-    if (!known) out.push_back(f);
-  }
-  return out;
+  return first_apart(found, kStarts, kNotNextSteps * grid.step, [](const Scored& f) { return f.sweep.centre; });
 }
 
 }  // namespace
@@ -98,7 +85,6 @@ std::optional<Viewpoint> find_viewpoint_by_lines(const Cloud& cloud, const LineP
   out.evidence = ViewpointEvidence::kScanLines;
   out.place = frame->T_cloud_axes * (frame->unit_m * best.sweep.centre);
   out.line_share = best.share;
-  out.hidden_share = 0;
   out.radius_m = kSigmas * best.sweep.sigma * frame->unit_m;
   out.extent_m = frame->unit_m;
   if (!out.determined()) return std::nullopt;

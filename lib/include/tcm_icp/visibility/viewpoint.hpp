@@ -16,10 +16,12 @@ enum class ViewpointEvidence { kScanLines, kOcclusion };
 /// The place about which a scan's lines were swept, or from which the fewest of its points hide behind others.
 struct Viewpoint {
   Eigen::Vector3d place = Eigen::Vector3d::Zero();  ///< in the cloud's frame
-  double hidden_share = 1;  ///< 0..1; points behind others from there. A scanner sees all its points: noise is left
-  double radius_m = 0;      ///< [m] moves of this length leave as few hidden; three sigma where scan lines told it
-  double extent_m = 0;      ///< [m] middle edge of the box about 94 % of the points, along their principal axes
-  Points alternatives;      ///< places about as good, spread out; `place` is not among them
+  /// 0..1; points behind others from there, where occlusion told the place. A scanner sees all its points: noise is
+  /// left.
+  double hidden_share = 1;
+  double radius_m = 0;  ///< [m] moves of this length leave as few hidden; three sigma where scan lines told it
+  double extent_m = 0;  ///< [m] middle edge of the box about 94 % of the points, along their principal axes
+  Points alternatives;  ///< places about as good, spread out; `place` is not among them
   ViewpointEvidence evidence = ViewpointEvidence::kOcclusion;
   double line_share = 0;  ///< 0..1; pieces of scan lines that agree with the place; 0 where occlusion told it
 
@@ -28,6 +30,9 @@ struct Viewpoint {
   bool determined() const;
   /// Less is asked: enough to tell the sides of surfaces, where the alternatives agree.
   bool roughly_determined() const;
+
+ private:
+  bool within(double share_of_extent) const;
 };
 
 /// Searches a grid of places in the box about the points, grown by 0.3 of its edges on each side, then from the best of
