@@ -199,6 +199,25 @@ TEST_F(RegisterUnguided, RoomsThatRepeatAreToldApartByFreeSpace) {
   EXPECT_GT(vetoed, 10U) << "beside the poses that were not even fitted";
 }
 
+// Along a corridor scans fit best where they overlap most; slides of such poses find where they belong.
+TEST_F(RegisterUnguided, ScansOfACorridorAreNotLaidOverOneAnother) {
+  ASSERT_EQ(run({"simulate", "--scene", "interior", "--scans", "6", "--seed", "11", "--out", "rooms"}).exit_code, 0);
+  Words files;
+  for (int i = 0; i < 6; ++i) files.push_back("rooms/00" + std::to_string(i) + ".ply");
+  register_to("result", files);
+  run({"evaluate", "--poses", "result/poses.json", "--truth", "rooms/truth.json", "--scans", "rooms", "--json",
+       "score.json"});
+  const auto score = read_json(folder() / "score.json");
+  EXPECT_EQ(score["wrong"], 0);
+  EXPECT_GE(score["ok"], 5) << "without slides three";
+  const auto report = read_json(folder() / "result/report.json");
+  std::size_t by_slides = 0;
+  for (const auto& h : report["hypotheses"]) {
+    if (h["method"] == "slide" && h["fate"] == "confirmed") ++by_slides;
+  }
+  EXPECT_GE(by_slides, 1U);
+}
+
 TEST_F(RegisterUnguided, LinesOfASpinningScannerTellWhereItStood) {
   ASSERT_EQ(
       run({"simulate", "--scene", "street", "--sensor", "spinning", "--scans", "3", "--seed", "5", "--out", "street"})

@@ -122,5 +122,20 @@ TEST(MisfitLogOdds, WhatFitsHalfAsWellAsOthersLosesNothing) {
   EXPECT_EQ(misfit_log_odds(0.01, 0), 0) << "perfect data";
 }
 
+TEST(FreeSpaceLogOdds, FallWithWhatRightPosesDoNotHave) {
+  EXPECT_EQ(free_space_log_odds({}), 0) << "not looked at";
+  EXPECT_EQ(free_space_log_odds({50, 20, 0, 0}), 0) << "too few points tell";
+  EXPECT_EQ(free_space_log_odds({2000, 4, 2000, 20}), 0) << "as right poses have";
+  double last = 0;
+  for (const std::size_t violating : {20u, 25u, 30u, 40u}) {
+    const double now = free_space_log_odds({2000, violating, 0, 0});
+    EXPECT_LT(now, last) << violating;
+    last = now;
+  }
+  EXPECT_LT(free_space_log_odds({2000, 4, 2000, 300}), -3) << "opposite sides of walls";
+  EXPECT_GT(free_space_log_odds({500, 5, 0, 0}), free_space_log_odds({50000, 500, 0, 0}))
+      << "of few, chance makes more";
+}
+
 }  // namespace
 }  // namespace tcm_icp

@@ -63,7 +63,7 @@ TEST(PairSearch, FindsTheLinksOfASetInUnknownFrames) {
   EXPECT_EQ(graph.outside_of_largest_group(), std::vector<bool>(3, false));
 }
 
-TEST(PairSearch, AsksLocalFeaturesNextAndThenNothing) {
+TEST(PairSearch, AsksLocalFeaturesNextThenSlidesAndThenNothing) {
   const PreparedScene s = yard(2, 2);
   const auto files = names(2);
   PairSearch search(s.scans, files, kOptions, kContext);
@@ -79,6 +79,7 @@ TEST(PairSearch, AsksLocalFeaturesNextAndThenNothing) {
   });
   ASSERT_NE(features, hypotheses.end());
   EXPECT_LE(error_m(s, {0, 1}, *features), 0.25 * s.resolutions.coarse_m);
+  EXPECT_TRUE(search.extend(graph, all)) << "slides";
   EXPECT_FALSE(search.extend(graph, all)) << "no pair is tried twice";
 }
 

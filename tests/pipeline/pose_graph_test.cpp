@@ -134,6 +134,24 @@ TEST_F(PoseGraphTest, LinksThatPassedFreeSpaceAreNotContradictedByOthers) {
   EXPECT_LT(graph_.links().at({2, 3}).trust, 1) << "as its set, none of whose loops closes";
 }
 
+// What free space bears out stands, where links contradict it that it spoke against, if not loudly enough for a veto.
+TEST_F(PoseGraphTest, LinksThatFreeSpaceBearsOutAreNotContradictedByOthers) {
+  const std::vector<PointMoments> points(5, PointMoments(points_));
+  const auto judged = [&](std::size_t a, std::size_t b, std::size_t num_violating, double off_m = 0) {
+    LinkHypothesis h = hypothesis(a, b, 8, off_m);
+    h.free_space.num_points = 1000;
+    h.free_space.num_violating = num_violating;
+    return h;
+  };
+  add(0, 1, {judged(0, 1, 2)});
+  add(1, 2, {judged(1, 2, 2)});
+  add(0, 2, {judged(0, 2, 15, 9)});
+  graph_.weigh_by_loops(points, kSame_m);
+  EXPECT_EQ(graph_.links().at({0, 1}).trust, 1);
+  EXPECT_EQ(graph_.links().at({1, 2}).trust, 1);
+  EXPECT_EQ(graph_.links().at({0, 2}).trust, 0);
+}
+
 // The same link serves both of its scans: T_a_b one way, its inverse the other.
 TEST_F(PoseGraphTest, EitherScanOfALinkCanBePlacedByTheOther) {
   add(1, 3, {hypothesis(1, 3, 4)});

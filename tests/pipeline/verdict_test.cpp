@@ -51,6 +51,25 @@ TEST(Judge, EachKindOfEvidenceCanRejectAlone) {
   EXPECT_FALSE(judge({}).accepted) << "no evidence";
 }
 
+// A corridor: walls agree wherever the scan slides to.
+TEST(Judge, WhatLiesAcrossHoldsAScanThatSlidesIfFreeSpaceBearsItOut) {
+  const FreeSpaceEvidence clear{1000, 2, 1000, 2}, some{1000, 12, 1000, 2};
+  AlignmentEvidence e = good();
+  e.left_after_slide[0] = 0.9;
+  e.left_across = 0.2;
+  e.num_across = 100;
+  EXPECT_TRUE(judge(e, clear).accepted);
+  EXPECT_FALSE(judge(e).accepted) << "nothing bears it out";
+  EXPECT_FALSE(judge(e, {50, 0, 1000, 2}).accepted) << "too little was looked at";
+  EXPECT_TRUE(judge(good(), some).accepted);
+  EXPECT_FALSE(judge(e, some).accepted) << "no veto, but more than right poses have";
+  e.left_across = 0.8;
+  EXPECT_FALSE(judge(e, clear).accepted) << "what lies across slides as well";
+  e.left_across = 0.2;
+  e.num_across = 10;
+  EXPECT_FALSE(judge(e, clear).accepted) << "chance";
+}
+
 TEST(Judge, WhatIsSeenThroughIsRejectedWhateverElseAgrees) {
   EXPECT_TRUE(judge(good(), {1000, 10, 1000, 50}).accepted) << "noise, and what moved";
   const Verdict through = judge(good(), {1000, 100, 0, 0}), behind = judge(good(), {0, 0, 1000, 400});

@@ -96,6 +96,39 @@ TEST(VerifyAlignment, APlaneSlidesInThreeDirectionsAndACornerInNone) {
   EXPECT_TRUE(std::is_sorted(in_corner.left_after_slide.rbegin(), in_corner.left_after_slide.rend()));
 }
 
+// 40 m of floor and walls, and a few posts' faces across them.
+TEST(VerifyAlignment, WhatLiesAcrossACorridorHoldsIt) {
+  Cloud along, posts;
+  for (double x = -20; x < 20; x += 0.25) {
+    for (double s = 0.25; s < 3; s += 0.5) {
+      along.points.emplace_back(x, s - 1.5, 0);
+      along.normals.push_back(Vector3d::UnitZ());
+      for (const double y : {-1.5, 1.5}) {
+        along.points.emplace_back(x, y, s);
+        along.normals.push_back(Vector3d::UnitY());
+      }
+    }
+  }
+  for (const double x : {-13.0, -8.0, -1.0, 5.0, 12.0}) {
+    for (double z = 0.5; z < 3; z += 0.25) {
+      posts.points.emplace_back(x, 1.1, z);
+      posts.normals.push_back(Vector3d::UnitX());
+    }
+  }
+  Cloud corridor = along;
+  corridor.points.insert(corridor.points.end(), posts.points.begin(), posts.points.end());
+  corridor.normals.insert(corridor.normals.end(), posts.normals.begin(), posts.normals.end());
+
+  const auto held = verify_alignment(corridor, level_of(corridor), Isometry3d::Identity(), options());
+  EXPECT_GT(held.left_after_slide[0], 0.85) << "it slides as a whole";
+  EXPECT_EQ(held.num_across, posts.size());
+  EXPECT_EQ(held.left_across, 0);
+  const auto bare = verify_alignment(along, level_of(along), Isometry3d::Identity(), options());
+  EXPECT_GT(bare.left_after_slide[0], 0.85);
+  EXPECT_EQ(bare.num_across, 0u);
+  EXPECT_EQ(bare.left_across, 1) << "nothing holds it";
+}
+
 TEST(VerifyAlignment, ATargetWithoutNormalsCannotAgree) {
   PyramidLevel target = level_of(corner(20));
   for (auto& n : target.cloud.normals) n.setZero();

@@ -88,23 +88,27 @@ void weigh(std::vector<Loop> loops, IsWeighed is_weighed, std::map<Pair, Candida
 }  // namespace
 
 void PoseGraph::weigh_by_loops(const std::vector<PointMoments>& points, double same_m) {
-  std::map<Pair, const LinkHypothesis*> clear, judged;
+  // What free space could have vetoed, and did not, has stood a test of its own, and best where it shows no more
+  // violations than right poses have. Links that stood a lesser test do not speak against it.
+  std::map<Pair, const LinkHypothesis*> borne_out, judged, clear;
   for (const auto& [pair, link] : links_) {
     if (link.hypotheses.empty() || link.hypotheses.front().log_odds < kClearLogOdds) continue;
     const LinkHypothesis& likeliest = link.hypotheses.front();
     clear[pair] = &likeliest;
-    if (likeliest.free_space.tells()) judged[pair] = &likeliest;
+    if (!likeliest.free_space.tells()) continue;
+    judged[pair] = &likeliest;
+    if (free_space_log_odds(likeliest.free_space) > kBorneOut) borne_out[pair] = &likeliest;
   }
-  // What free space could have vetoed, and did not, has stood a test of its own. Links that stood none do not speak
-  // against it.
-  weigh(
-      find_loops(judged, num_scans_, points, same_m), [&](const Pair& p) { return judged.contains(p); }, links_);
   std::set<Pair> sure;
-  for (const auto& [pair, hypothesis] : judged) {
-    if (links_.at(pair).trust > 0) sure.insert(pair);
+  for (const auto* stood : {&borne_out, &judged, &clear}) {
+    const bool last = stood == &clear;
+    weigh(
+        find_loops(*stood, num_scans_, points, same_m),
+        [&](const Pair& p) { return !sure.contains(p) && (last || stood->contains(p)); }, links_);
+    for (const auto& [pair, hypothesis] : *stood) {
+      if (links_.at(pair).trust > 0) sure.insert(pair);
+    }
   }
-  weigh(
-      find_loops(clear, num_scans_, points, same_m), [&](const Pair& p) { return !sure.contains(p); }, links_);
 }
 
 }  // namespace tcm_icp

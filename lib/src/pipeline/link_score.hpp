@@ -3,6 +3,7 @@
 
 #include "tcm_icp/coarse/pose_candidate.hpp"
 #include "tcm_icp/registration/verification.hpp"
+#include "tcm_icp/visibility/free_space.hpp"
 
 namespace tcm_icp {
 
@@ -14,6 +15,14 @@ double link_log_odds(const AlignmentEvidence& evidence, const PoseCandidate& can
 /// What a hypothesis loses to a rival of its pair, a clearly different pose with more consensus: 0 or less. Rivals are
 /// looked at by the same points, so their consensus tells them apart better than where they came from.
 double rival_log_odds(double consensus, double rival_consensus);
+
+/// What a hypothesis loses to violations of free space that are too few for a veto: 0 or less. Right poses of real and
+/// simulated scenes have 0.002 of them and, nine of ten, at most 0.006; wrong ones that nothing else tells from right
+/// have 0.007 and more, nine of ten (decision 0017).
+double free_space_log_odds(const FreeSpaceEvidence& free_space);
+
+/// Free space that speaks against a pose by no more bears it out, where enough points tell.
+constexpr double kBorneOut = -1;
 
 /// What a placed scan loses where it fits worse than its set does: 0 up to twice the typical median residual, then four
 /// times the logarithm. Scans of one set lie within 1.9 times of it where they are right; a mirrored building that no

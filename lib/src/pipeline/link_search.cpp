@@ -23,9 +23,13 @@ constexpr double kFirstGate = 8, kLastGate = 2, kGateShrink = 0.6;  // gates in 
 // violations and less, those whose fits were wrong to 0.08 and more.
 constexpr double kHopelessViolations = 0.12;
 
-bool hopeless(const PreparedScan& target, const PreparedScan& source, const Eigen::Isometry3d& T) {
-  const FreeSpaceEvidence evidence = free_space(target, source, T);
-  return evidence.tells() && evidence.violation_share() > kHopelessViolations;
+// A slide is right but for two voxels or so, or wrong.
+constexpr double kHopelessOfSlide = 0.04;
+
+bool hopeless(const PreparedScan& target, const PreparedScan& source, const PoseCandidate& candidate) {
+  const FreeSpaceEvidence evidence = free_space(target, source, candidate.T_target_source);
+  const double most = candidate.method == CoarseMethod::kSlide ? kHopelessOfSlide : kHopelessViolations;
+  return evidence.tells() && evidence.violation_share() > most;
 }
 
 // Each method's best, then those whose points lie nearest the target. Points alone would not do: in a forest something
@@ -78,7 +82,8 @@ void CandidateLink::rank(const PointMoments& points_b, double voxel_m) {
       const double apart_m = rms_displacement(h.T_a_b.inverse() * other.T_a_b, points_b);
       if (apart_m >= kSameLinkPose * voxel_m) rival = std::max(rival, other.evidence.consensus());
     }
-    h.log_odds = link_log_odds(h.evidence, h.candidate, voxel_m) + rival_log_odds(h.evidence.consensus(), rival);
+    h.log_odds = link_log_odds(h.evidence, h.candidate, voxel_m) + free_space_log_odds(h.free_space) +
+                 rival_log_odds(h.evidence.consensus(), rival);
     if (h.free_space.vetoes()) h.log_odds = std::min(h.log_odds, kVetoedLogOdds);
   }
   std::stable_sort(hypotheses.begin(), hypotheses.end(),
@@ -110,7 +115,7 @@ CandidateLink fit_candidates(const std::vector<PreparedScan>& scans, std::size_t
   std::size_t num_fits = 0, num_vetoed = 0;
   for (const auto& candidate : screen(target, source, candidates)) {
     if (num_fits - num_vetoed == kMaxFits) break;
-    if (hopeless(target, source, candidate.T_target_source)) continue;
+    if (hopeless(target, source, candidate)) continue;
     ++num_fits;
     const RegistrationResult fit = register_lp(sample, target.pyramid, candidate.T_target_source, lp);
     if (!fit.usable()) continue;
@@ -119,8 +124,9 @@ CandidateLink fit_candidates(const std::vector<PreparedScan>& scans, std::size_t
     });
     if (known) continue;
     LinkHypothesis hypothesis{fit.T_target_source, candidate, evidence_of(target, source, fit.T_target_source), 0};
-    hypothesis.log_odds = link_log_odds(hypothesis.evidence, candidate, voxel_m);
     hypothesis.free_space = free_space(target, source, fit.T_target_source);
+    hypothesis.log_odds =
+        link_log_odds(hypothesis.evidence, candidate, voxel_m) + free_space_log_odds(hypothesis.free_space);
     link.hypotheses.push_back(hypothesis);
     if (hypothesis.free_space.vetoes()) {
       ++num_vetoed;

@@ -3,23 +3,32 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "link_search.hpp"
 #include "tcm_icp/coarse/feature_alignment.hpp"
 #include "tcm_icp/coarse/height_correlation.hpp"
+#include "tcm_icp/coarse/slide_search.hpp"
 #include "tcm_icp/core/parallel.hpp"
 
 namespace tcm_icp {
 
 // Height maps first: they are cheap and cover a whole set at once. Local features are asked where those left scans
-// alone.
+// alone, and then slides, which need poses to start from.
+
 // A scan overlaps few others much. Where there are more, all pairs are ranked at little cost first.
 constexpr std::size_t kFirstPartners = 10;
+constexpr std::size_t kSlidesOfPose = 8;  // from one pose
 
 // Each of the two may be off the vertical.
 bool tilts(const Eigen::Isometry3d& T) { return T.linear()(2, 2) < std::cos(2 * kMaxLevelTilt_deg * EIGEN_PI / 180); }
 
-enum class Tried : char { kNothing, kHeightMaps, kBoth };
+Cloud surfaces(const PreparedScan& scan, NormalSides sides) {
+  const Cloud& cloud = scan.pyramid.level(0).cloud;
+  return sides == NormalSides::kSeen ? Cloud{cloud.points, scan.sight.facing} : cloud;
+}
+
+enum class Tried : char { kNothing, kHeightMaps, kFeatures, kSlides };
 
 struct PairSearch::Impl {
   Impl(const std::vector<PreparedScan>& all, const std::vector<std::string>& names, const PipelineOptions& o,
@@ -34,7 +43,8 @@ struct PairSearch::Impl {
   std::vector<std::vector<std::size_t>> partners;
   std::vector<std::size_t> reach;  // how many of them were asked for, of each scan
   FeatureAlignmentOptions features;
-  std::vector<DescribedScan> described;  // once they are asked for
+  std::vector<DescribedScan> described;                                                  // once they are asked for
+  std::map<std::pair<std::size_t, std::size_t>, std::vector<Eigen::Isometry3d>> fitted;  // target and source
 
   Tried& state(std::size_t a, std::size_t b) { return tried[std::min(a, b) * scans.size() + std::max(a, b)]; }
 
@@ -151,7 +161,29 @@ struct PairSearch::Impl {
     return out;
   }
 
-  void fit(const ScanPairs& pairs, const std::vector<std::vector<PoseCandidate>>& candidates, PoseGraph& graph) const {
+  /// From all poses that the pair was fitted to: where one is right but for a slide, it is most often one that free
+  /// space vetoes.
+  std::vector<std::vector<PoseCandidate>> by_slides(const ScanPairs& pairs) const {
+    std::vector<std::vector<PoseCandidate>> out(pairs.size());
+    parallel_for(context.num_threads, pairs.size(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t k = begin; k < end; ++k) {
+        const auto [a, b] = pairs[k];
+        const auto known = fitted.find(pairs[k]);
+        if (known == fitted.end()) continue;
+        const bool seen = scans[a].sight.knows_sides() && scans[b].sight.knows_sides();
+        const NormalSides sides = seen ? NormalSides::kSeen : NormalSides::kUnknown;
+        const Cloud target = surfaces(scans[a], sides), source = surfaces(scans[b], sides);
+        const double voxel_m = scans[a].pyramid.level(0).voxel_size_m;
+        for (const Eigen::Isometry3d& T : known->second) {
+          const auto slid = slide_candidates(target, source, T, voxel_m, sides, kSlidesOfPose);
+          out[k].insert(out[k].end(), slid.begin(), slid.end());
+        }
+      }
+    });
+    return out;
+  }
+
+  void fit(const ScanPairs& pairs, const std::vector<std::vector<PoseCandidate>>& candidates, PoseGraph& graph) {
     std::vector<CandidateLink> links(pairs.size());
     parallel_for(context.num_threads, pairs.size(), [&](std::size_t begin, std::size_t end) {
       for (std::size_t k = begin; k < end; ++k) {
@@ -159,6 +191,8 @@ struct PairSearch::Impl {
       }
     });
     for (auto& link : links) {
+      // As fitted: taken back and forth, a pose would not have the same last digits.
+      for (const auto& h : link.hypotheses) fitted[{link.a, link.b}].push_back(h.T_a_b);
       if (link.a > link.b) link.swap();
       const PreparedScan& b = scans[link.b];
       graph.add(link, b.moments, b.pyramid.level(0).voxel_size_m);
@@ -171,7 +205,7 @@ PairSearch::PairSearch(const std::vector<PreparedScan>& scans, const std::vector
     : impl_(new Impl(scans, files, options, context)) {}
 PairSearch::~PairSearch() = default;
 
-void PairSearch::leave_out(std::size_t a, std::size_t b) { impl_->state(a, b) = Tried::kBoth; }
+void PairSearch::leave_out(std::size_t a, std::size_t b) { impl_->state(a, b) = Tried::kSlides; }
 
 void PairSearch::run(PoseGraph& graph) {
   std::vector<bool> wanted(impl_->scans.size(), true);
@@ -193,7 +227,13 @@ bool PairSearch::extend(PoseGraph& graph, const std::vector<bool>& wanted) {
     if (const ScanPairs pairs = impl_->pairs(Tried::kHeightMaps, wanted); !pairs.empty()) {
       impl_->context.report("comparing features", 0, pairs.size());
       impl_->fit(pairs, impl_->by_features(pairs), graph);
-      for (const auto& [a, b] : pairs) impl_->state(a, b) = Tried::kBoth;
+      for (const auto& [a, b] : pairs) impl_->state(a, b) = Tried::kFeatures;
+      return true;
+    }
+    if (const ScanPairs pairs = impl_->pairs(Tried::kFeatures, wanted); !pairs.empty()) {
+      impl_->context.report("comparing along corridors", 0, pairs.size());
+      impl_->fit(pairs, impl_->by_slides(pairs), graph);
+      for (const auto& [a, b] : pairs) impl_->state(a, b) = Tried::kSlides;
       return true;
     }
   } while (impl_->reach_further(wanted));

@@ -24,14 +24,14 @@ class PairSearch {
   void leave_out(std::size_t a, std::size_t b);
 
   /// Tries all pairs by height maps, and the pairs of scans that clear links did not join to the largest group by
-  /// features.
+  /// features, then by slides.
   void run(PoseGraph& graph);
 
-  /// Tries the pairs of `wanted` scans with any other by the next method that they were not tried by: height maps, then
-  /// features. Links go to the graph. False where no pair was left.
-  /// Each scan is tried with the ten others it most likely overlaps with, by coarse height maps; once they were tried
-  /// by both methods, wanted scans are tried with twice as many. Cost: some 50 ms of processor time a pair and method,
-  /// 1 ms to rank a pair.
+  /// Tries the pairs of `wanted` scans with any other by the next method that they were not tried by: height maps,
+  /// features, slides of the poses that those fitted to (slide_search.hpp). Links go to the graph. False where no pair
+  /// was left. Each scan is tried with the ten others it most likely overlaps with, by coarse height maps; once they
+  /// were tried by all methods, wanted scans are tried with twice as many. Cost: some 50 ms of processor time a pair
+  /// and method, 1 ms to rank a pair.
   bool extend(PoseGraph& graph, const std::vector<bool>& wanted);
 
  private:

@@ -76,6 +76,8 @@ Eigen::Isometry3d place_linked_scan(const PreparedScan& scan, const ScanPyramid&
   PlacementCandidate best;
   for (std::size_t k = 0; k < std::min(starts.size(), kMaxStarts); ++k) {
     if (best.verdict.accepted && starts[k].log_odds < starts[0].log_odds - kClearLead) break;
+    // What more speaks against than for would win by agreement alone: along a corridor, where scans overlap most.
+    if (k > 0 && starts[k].log_odds <= 0) break;
     const PlacementCandidate candidate = placer.fit_from(starts[k].T_reference_scan, kLinkGates);
     if (candidate.found && (!best.found || better(candidate, best))) best = candidate;
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "link_score.hpp"
 #include "placement.hpp"
 #include "pose_search.hpp"
 #include "tcm_icp/core/even_sample.hpp"
@@ -48,11 +49,13 @@ AlignmentEvidence Placer::verify(const Eigen::Isometry3d& T) const {
 
 Verdict Placer::judge_at(const Eigen::Isometry3d& T, const AlignmentEvidence& evidence) const {
   const Verdict verdict = judge(evidence);
-  return verdict.accepted && free_space_ ? judge(evidence, free_space_(T)) : verdict;
+  // Free space takes time: it is not asked where it would not change anything.
+  const bool may_hold = evidence.num_across > 0 && evidence.left_across < 1;
+  return free_space_ && (verdict.accepted || may_hold) ? judge(evidence, free_space_(T)) : verdict;
 }
 
-bool Placer::vetoed(const PlacementCandidate& candidate) const {
-  return free_space_ && free_space_(candidate.fit.T_target_source).vetoes();
+FreeSpaceEvidence Placer::free_space_of(const PlacementCandidate& candidate) const {
+  return free_space_ ? free_space_(candidate.fit.T_target_source) : FreeSpaceEvidence{};
 }
 
 PlacementCandidate Placer::fit_from(const Eigen::Isometry3d& T_init, std::span<const double> gates) {
@@ -74,7 +77,11 @@ void Placer::try_shifts(const Eigen::Isometry3d& T_init, double gate_in_voxels, 
 
 void Placer::explore(PlacementCandidate& best) {
   double runner_up = 0;
-  bool changed = true, best_vetoed = vetoed(best);
+  bool changed = true;
+  FreeSpaceEvidence best_free = free_space_of(best);
+  // More agrees along a corridor the more two scans overlap: there a pose that free space speaks against is no rival.
+  // Elsewhere it shows that the place repeats itself.
+  const bool corridor = best.evidence.left_after_slide[0] > kMaxLeftAfterSlide && held_across(best.evidence, best_free);
   for (int round = 0; changed && round < kMaxExplorations; ++round) {
     changed = false;
     const Eigen::Isometry3d T_round = best.fit.T_target_source;
@@ -82,11 +89,15 @@ void Placer::explore(PlacementCandidate& best) {
       const PlacementCandidate other = look_at(T, best);
       if (!other.found || same_pose(other, best)) continue;
       const double mine = best.evidence.consensus(), others = other.evidence.consensus();
-      const bool wins = others > mine || (best_vetoed && others > kPromisingShare * mine);
-      if (wins && !vetoed(other)) {
+      const bool promising = others > kPromisingShare * mine;
+      const FreeSpaceEvidence other_free = promising ? free_space_of(other) : FreeSpaceEvidence{};
+      const double lead = free_space_log_odds(best_free) - free_space_log_odds(other_free);
+      if (promising && corridor && (other_free.vetoes() || lead > kClearLogOdds)) continue;
+      const bool wins = others > mine || (promising && best_free.vetoes());
+      if (wins && !other_free.vetoes()) {
         runner_up = mine / others;
         best = other;
-        changed = true, best_vetoed = false;
+        changed = true, best_free = other_free;
       } else if (mine > 0) {
         runner_up = std::max(runner_up, others / mine);
       }

@@ -60,7 +60,7 @@ class Placer {
   RegistrationResult fit_coarse(const Cloud& points, const Eigen::Isometry3d& T_init, double gate_m, int max_programs);
   RegistrationResult fit_fine(const Cloud& surfaces, const RegistrationResult& before, int max_programs);
   LpRegistrationOptions lp_options(double initial_gate_m, double final_gate_m, int max_programs) const;
-  bool vetoed(const PlacementCandidate& candidate) const;
+  FreeSpaceEvidence free_space_of(const PlacementCandidate& candidate) const;
   bool same_pose(const PlacementCandidate& a, const PlacementCandidate& b) const;
 
   const PreparedScan& scan_;

@@ -4,6 +4,8 @@
 #include <cstdio>
 #include <string>
 
+#include "link_score.hpp"
+
 namespace tcm_icp {
 namespace {
 
@@ -13,9 +15,6 @@ std::string percent(double share) {
   return text;
 }
 
-// What is left of the agreement after a slide by four voxels, at most, where a pose is right. On real and simulated
-// scenes right poses leave 0.16 to 0.70 in their weakest direction, wrong ones 0.79 and more, most of them above 1.
-constexpr double kMaxLeftAfterSlide = 0.75;
 // A pose that a wide search came up with is one of many it looked at, so more is asked of it: it must be sharp, or most
 // of the scan must have a counterpart. A mirrored scan of a flat campus, which no motion can place, reached 0.60 with
 // 0.60 of its points overlapping.
@@ -26,8 +25,14 @@ constexpr double kMinInlierShare = 0.2;
 constexpr double kMaxRunnerUp = 0.85;
 constexpr double kMinConsensus = 0.05;
 constexpr std::size_t kMinAgreeing = 30;
+constexpr double kMaxLeftAcross = 0.5;
 
 }  // namespace
+
+bool held_across(const AlignmentEvidence& evidence, const FreeSpaceEvidence& free_space) {
+  return evidence.num_across >= kMinAgreeing && evidence.left_across <= kMaxLeftAcross && free_space.tells() &&
+         free_space_log_odds(free_space) > kBorneOut;
+}
 
 VerificationOptions verification_at(double voxel_m) {
   VerificationOptions options;
@@ -54,7 +59,7 @@ Verdict judge(const AlignmentEvidence& evidence, const FreeSpaceEvidence& free_s
   const bool linked = !std::isnan(evidence.link_log_odds);
   const bool strict = evidence.searched && !linked && evidence.overlap < kMinOverlapSearched;
   const double max_left = strict ? kMaxLeftAfterSlideSearched : kMaxLeftAfterSlide;
-  if (evidence.left_after_slide[0] > max_left) {
+  if (evidence.left_after_slide[0] > max_left && !held_across(evidence, free_space)) {
     return {false, "ambiguous: moved along its weakest direction, it still agrees at " +
                        percent(evidence.left_after_slide[0]) + " of as many points"};
   }

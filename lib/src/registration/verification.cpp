@@ -14,6 +14,8 @@
 namespace tcm_icp {
 namespace {
 
+constexpr double kCrossing = 2;  // tolerances: what agreed within one does not any more
+
 using Information = Eigen::Matrix<double, 6, 6>;
 
 struct Tally {
@@ -52,6 +54,21 @@ Tally take_tally(const Cloud& points, const PyramidLevel& target, const Eigen::I
   return tally;
 }
 
+// Those which a step takes off their surfaces, by `least_m` and more.
+Cloud crossed_by(const Cloud& points, const TwistFrame& frame, const Eigen::Isometry3d& T, const Twist& step_m,
+                 double least_m) {
+  Cloud out;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Eigen::Vector3d n = T.linear() * points.normals[i];
+    Twist row;
+    row << (T * points.points[i] - frame.centre).cross(n) / frame.radius_m, n;
+    if (std::abs(row.dot(step_m)) < least_m) continue;
+    out.points.push_back(points.points[i]);
+    out.normals.push_back(points.normals[i]);
+  }
+  return out;
+}
+
 }  // namespace
 
 void VerificationOptions::validate() const {
@@ -86,15 +103,25 @@ AlignmentEvidence verify_alignment(const Cloud& held_out, const PyramidLevel& ta
   if (!options.with_slides) return evidence;
 
   const Eigen::SelfAdjointEigenSolver<Information> axes(tally.information);
-  for (int k = 0; k < 6; ++k) {
+  const auto left_of = [&](const Cloud& points, std::size_t agreeing, const Twist& step) {
     double left = 0;
     for (const double sign : {-1.0, 1.0}) {
-      const Twist step = sign * options.slide_m * axes.eigenvectors().col(k);
-      const Tally slid = take_tally(held_out, target, frame.moved(T_target_source, step), options, nullptr);
-      left = std::max(left, static_cast<double>(slid.agreeing) / static_cast<double>(tally.agreeing));
+      const Tally slid = take_tally(points, target, frame.moved(T_target_source, sign * step), options, nullptr);
+      left = std::max(left, static_cast<double>(slid.agreeing) / static_cast<double>(agreeing));
     }
+    return left;
+  };
+  const auto slide = [&](int k) -> Twist { return options.slide_m * axes.eigenvectors().col(k); };
+  int weakest = 0;
+  double most_left = -1;
+  for (int k = 0; k < 6; ++k) {
+    const double left = left_of(held_out, tally.agreeing, slide(k));
     evidence.left_after_slide[static_cast<std::size_t>(k)] = left;
+    if (left > most_left) most_left = left, weakest = k;
   }
+  const Cloud across = crossed_by(held_out, frame, T_target_source, slide(weakest), kCrossing * options.tolerance_m);
+  evidence.num_across = take_tally(across, target, T_target_source, options, nullptr).agreeing;
+  if (evidence.num_across > 0) evidence.left_across = left_of(across, evidence.num_across, slide(weakest));
   std::sort(evidence.left_after_slide.rbegin(), evidence.left_after_slide.rend());
   return evidence;
 }

@@ -23,6 +23,8 @@ Json to_json(const AlignmentEvidence& e) {
           {"tolerance_m", e.tolerance_m},
           {"slide_m", e.slide_m},
           {"left_after_slide", e.left_after_slide},
+          {"across", e.num_across},
+          {"left_across", e.left_across},
           {"runner_up", number(e.runner_up)},
           {"searched", e.searched},
           {"links", e.num_links},
@@ -171,18 +173,17 @@ Json report_object(const PipelineResult& result, const PipelineOptions& options,
   }
   report["hypotheses"] = Json::array();
   for (const auto& h : result.hypotheses) {
-    report["hypotheses"].push_back(
-        {{"a", result.scans[h.a].file},
-         {"b", result.scans[h.b].file},
-         {"pose_of_b_in_a", to_json(Eigen::MatrixXd(h.T_a_b.matrix()))},
-         {"method", h.candidate.method == CoarseMethod::kFeatures ? "features" : "height map"},
-         {"coarse_score", number(h.candidate.score)},
-         {"coarse_margin", number(h.candidate.margin)},
-         {"log_odds", h.log_odds},
-         {"trust", h.trust},
-         {"fate", h.fate},
-         {"evidence", to_json(h.evidence)},
-         {"free_space", to_json(h.free_space)}});
+    report["hypotheses"].push_back({{"a", result.scans[h.a].file},
+                                    {"b", result.scans[h.b].file},
+                                    {"pose_of_b_in_a", to_json(Eigen::MatrixXd(h.T_a_b.matrix()))},
+                                    {"method", to_string(h.candidate.method)},
+                                    {"coarse_score", number(h.candidate.score)},
+                                    {"coarse_margin", number(h.candidate.margin)},
+                                    {"log_odds", h.log_odds},
+                                    {"trust", h.trust},
+                                    {"fate", h.fate},
+                                    {"evidence", to_json(h.evidence)},
+                                    {"free_space", to_json(h.free_space)}});
   }
   for (const auto& s : result.stages) {
     report["stages"].push_back({{"name", s.name}, {"seconds", s.seconds}, {"peak_memory_mb", s.peak_memory_mb}});

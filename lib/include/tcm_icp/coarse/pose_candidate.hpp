@@ -2,10 +2,15 @@
 // A pose two scans may have, before anything verified it.
 
 #include <Eigen/Geometry>
+#include <string_view>
 
 namespace tcm_icp {
 
-enum class CoarseMethod { kFeatures, kHeightMap };
+/// kSlide: a pose of one of the other two, moved along a corridor or a street.
+enum class CoarseMethod { kFeatures, kHeightMap, kSlide };
+
+/// "features", "height map" or "slide".
+std::string_view to_string(CoarseMethod method);
 
 struct PoseCandidate {
   Eigen::Isometry3d T_target_source = Eigen::Isometry3d::Identity();

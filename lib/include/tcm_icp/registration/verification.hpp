@@ -22,6 +22,10 @@ struct AlignmentEvidence {
   /// is left) first: 1 where the sliding costs nothing.
   std::array<double, 6> left_after_slide{};
   double slide_m = 0;  ///< [m] rms length of these slides
+  /// The same of the weakest slide, of the points alone whose surfaces it crosses: walls along a corridor agree
+  /// wherever a scan slides to, and outnumber the door frames that tell. 1 where none agrees.
+  double left_across = 1;
+  std::size_t num_across = 0;  ///< of these points, those that agree
   /// Consensus of the best other pose found nearby (structure that repeats), by this pose's: 1 is a tie. 0 where none
   /// was found; NaN where none was looked for.
   double runner_up = std::numeric_limits<double>::quiet_NaN();
@@ -46,7 +50,7 @@ struct VerificationOptions {
 };
 
 /// Principal directions are those of the point-to-plane information matrix (Gelfand et al., 2003): the weakest is the
-/// direction the scan can slide along most freely. Cost: 13 nearest-neighbour queries a point.
+/// direction the scan can slide along most freely. Cost: 13 to 16 nearest-neighbour queries a point.
 AlignmentEvidence verify_alignment(const Cloud& held_out, const PyramidLevel& target,
                                    const Eigen::Isometry3d& T_target_source, const VerificationOptions& options);
 

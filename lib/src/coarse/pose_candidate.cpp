@@ -1,0 +1,17 @@
+#include "tcm_icp/coarse/pose_candidate.hpp"
+
+namespace tcm_icp {
+
+std::string_view to_string(CoarseMethod method) {
+  switch (method) {
+    case CoarseMethod::kFeatures:
+      return "features";
+    case CoarseMethod::kHeightMap:
+      return "height map";
+    case CoarseMethod::kSlide:
+      return "slide";
+  }
+  return "unknown";
+}
+
+}  // namespace tcm_icp

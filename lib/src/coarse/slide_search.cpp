@@ -1,0 +1,128 @@
+#include "tcm_icp/coarse/slide_search.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <unordered_map>
+
+#include "tcm_icp/core/voxel_sampler.hpp"
+
+namespace tcm_icp {
+namespace {
+
+constexpr double kMinAcrossCosine = 0.7;  // 45 degrees: what faces along the slide rather than aside
+constexpr std::int64_t kLongest = 4096;   // voxels either way
+constexpr std::int64_t kAbout = 15;       // voxels either way: the lengths about one
+constexpr std::int64_t kDistinct = 4;     // voxels between two candidates
+constexpr std::int64_t kSame = 2;         // voxels from the pose that is known
+constexpr double kMinScore = 5, kLeastVotes = 4;
+
+// Columns: the direction of the slide, then two across it.
+Eigen::Matrix3d slide_axes(const Points& target_normals, const Points& source_normals) {
+  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+  for (const Points* normals : {&target_normals, &source_normals}) {
+    Eigen::Matrix3d of_scan = Eigen::Matrix3d::Zero();
+    for (const auto& n : *normals) of_scan += n * n.transpose();
+    if (of_scan.trace() > 0) sum += of_scan / of_scan.trace();
+  }
+  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(sum).eigenvectors();
+}
+
+// What lies across the slide.
+struct Across {
+  double along;     ///< [voxels]
+  VoxelKey column;  ///< x: the side that was seen
+};
+
+std::vector<Across> across(const Points& points, const Points& normals, const Eigen::Matrix3d& axes, double voxel_m,
+                           NormalSides sides) {
+  std::vector<Across> out;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double cosine = normals[i].dot(axes.col(0));
+    if (std::abs(cosine) < kMinAcrossCosine) continue;
+    const Eigen::Vector3d p = axes.transpose() * points[i] / voxel_m;
+    const double side = sides == NormalSides::kSeen && cosine < 0 ? 1 : 0;
+    out.push_back({p.x(), voxel_key({side, p.y(), p.z()}, 1)});
+  }
+  return out;
+}
+
+// Votes by the length of the slide in voxels, from -kLongest on.
+std::vector<double> count_votes(const std::vector<Across>& target, const std::vector<Across>& source) {
+  std::unordered_map<VoxelKey, std::vector<double>, VoxelKeyHash> columns;
+  for (const auto& p : target) columns[p.column].push_back(p.along);
+  std::vector<double> votes(static_cast<std::size_t>(2 * kLongest + 1), 0.0);
+  for (const auto& p : source) {
+    for (std::int64_t near = 0; near < 9; ++near) {
+      const auto column = columns.find({p.column.x, p.column.y + near % 3 - 1, p.column.z + near / 3 - 1});
+      if (column == columns.end()) continue;
+      for (const double x : column->second) {
+        const double length = x - p.along;
+        // A vote is shared by the two whole lengths about it.
+        const double low = std::floor(length), part = length - low;
+        if (!(std::abs(low) < kLongest - 1)) continue;
+        const auto k = static_cast<std::size_t>(static_cast<std::int64_t>(low) + kLongest);
+        votes[k] += 1 - part;
+        votes[k + 1] += part;
+      }
+    }
+  }
+  return votes;
+}
+
+// How far each length stands out from those about it.
+std::vector<double> stand_out(const std::vector<double>& votes) {
+  std::vector<double> sums(votes.size() + 1, 0.0);
+  for (std::size_t k = 0; k < votes.size(); ++k) sums[k + 1] = sums[k] + votes[k];
+  std::vector<double> scores(votes.size(), 0.0);
+  const auto size = static_cast<std::int64_t>(votes.size());
+  for (std::int64_t k = 0; k < size; ++k) {
+    const auto first = static_cast<std::size_t>(std::max<std::int64_t>(0, k - kAbout));
+    const auto end = static_cast<std::size_t>(std::min(size, k + kAbout + 1));
+    const double about = (sums[end] - sums[first]) / static_cast<double>(end - first);
+    const auto at = static_cast<std::size_t>(k);
+    scores[at] = (votes[at] - about) / std::sqrt(about + kLeastVotes);
+  }
+  return scores;
+}
+
+}  // namespace
+
+std::vector<PoseCandidate> slide_candidates(const Cloud& target, const Cloud& source,
+                                            const Eigen::Isometry3d& T_target_source, double voxel_m, NormalSides sides,
+                                            std::size_t max_candidates) {
+  Points points, normals;
+  for (const auto& p : source.points) points.push_back(T_target_source * p);
+  for (const auto& n : source.normals) normals.push_back(T_target_source.linear() * n);
+  const Eigen::Matrix3d axes = slide_axes(target.normals, normals);
+  const std::vector<double> scores = stand_out(count_votes(across(target.points, target.normals, axes, voxel_m, sides),
+                                                           across(points, normals, axes, voxel_m, sides)));
+
+  std::vector<std::int64_t> lengths;
+  for (std::int64_t length = -kLongest; length <= kLongest; ++length) {
+    const double score = scores[static_cast<std::size_t>(length + kLongest)];
+    if (std::abs(length) > kSame && score >= kMinScore) lengths.push_back(length);
+  }
+  const auto score_of = [&](std::int64_t length) { return scores[static_cast<std::size_t>(length + kLongest)]; };
+  std::stable_sort(lengths.begin(), lengths.end(),
+                   [&](std::int64_t a, std::int64_t b) { return score_of(a) > score_of(b); });
+  std::vector<std::int64_t> kept;
+  for (const std::int64_t length : lengths) {
+    if (kept.size() == max_candidates) break;
+    if (std::none_of(kept.begin(), kept.end(),
+                     [&](std::int64_t other) { return std::abs(other - length) < kDistinct; })) {
+      kept.push_back(length);
+    }
+  }
+  std::vector<PoseCandidate> out;
+  for (std::size_t k = 0; k < kept.size(); ++k) {
+    const Eigen::Vector3d shift = static_cast<double>(kept[k]) * voxel_m * axes.col(0);
+    const double rival = kept.size() == 1 ? kMinScore : score_of(kept[k == 0 ? 1 : 0]);
+    out.push_back({Eigen::Translation3d(shift) * T_target_source, CoarseMethod::kSlide, score_of(kept[k]),
+                   score_of(kept[k]) / rival});
+  }
+  return out;
+}
+
+}  // namespace tcm_icp
