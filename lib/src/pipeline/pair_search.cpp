@@ -12,6 +12,7 @@
 #include "tcm_icp/core/parallel.hpp"
 
 namespace tcm_icp {
+namespace {
 
 // Height maps first: they are cheap and cover a whole set at once. Local features are asked where those left scans
 // alone, and then slides, which need poses to start from.
@@ -29,6 +30,8 @@ Cloud surfaces(const PreparedScan& scan, NormalSides sides) {
 }
 
 enum class Tried : char { kNothing, kHeightMaps, kFeatures, kSlides };
+
+}  // namespace
 
 struct PairSearch::Impl {
   Impl(const std::vector<PreparedScan>& all, const std::vector<std::string>& names, const PipelineOptions& o,
