@@ -53,6 +53,16 @@ class RegisterUnguided : public CliTest {
     ASSERT_EQ(result.exit_code, 0) << result.err;
     expect_all_right(moved_back(poses("result"), moves));
   }
+  /// What registering six simulated scans of equal rooms along a corridor came to.
+  nlohmann::json score_of_rooms(const std::string& seed) const {
+    EXPECT_EQ(run({"simulate", "--scene", "interior", "--scans", "6", "--seed", seed, "--out", "rooms"}).exit_code, 0);
+    Words files;
+    for (int i = 0; i < 6; ++i) files.push_back("rooms/00" + std::to_string(i) + ".ply");
+    register_to("result", files);
+    run({"evaluate", "--poses", "result/poses.json", "--truth", "rooms/truth.json", "--scans", "rooms", "--json",
+         "score.json"});
+    return read_json(folder() / "score.json");
+  }
 };
 
 TEST_F(RegisterUnguided, PlacesEveryScanOfTheTown) {
@@ -168,13 +178,7 @@ TEST_F(RegisterUnguided, TwoPlacesAreTwoGroups) {
 
 // Equal rooms along a corridor: pairs alone agree at many poses, and what was seen through tells them apart.
 TEST_F(RegisterUnguided, RoomsThatRepeatAreToldApartByFreeSpace) {
-  ASSERT_EQ(run({"simulate", "--scene", "interior", "--scans", "6", "--seed", "1", "--out", "rooms"}).exit_code, 0);
-  Words files;
-  for (int i = 0; i < 6; ++i) files.push_back("rooms/00" + std::to_string(i) + ".ply");
-  register_to("result", files);
-  run({"evaluate", "--poses", "result/poses.json", "--truth", "rooms/truth.json", "--scans", "rooms", "--json",
-       "score.json"});
-  const auto score = read_json(folder() / "score.json");
+  const auto score = score_of_rooms("1");
   EXPECT_EQ(score["wrong"], 0);
   EXPECT_GE(score["ok"], 5) << "pairs alone placed none but the reference";
   const auto report = read_json(folder() / "result/report.json"), truth = read_json(folder() / "rooms/truth.json");
@@ -201,13 +205,7 @@ TEST_F(RegisterUnguided, RoomsThatRepeatAreToldApartByFreeSpace) {
 
 // Along a corridor scans fit best where they overlap most; slides of such poses find where they belong.
 TEST_F(RegisterUnguided, ScansOfACorridorAreNotLaidOverOneAnother) {
-  ASSERT_EQ(run({"simulate", "--scene", "interior", "--scans", "6", "--seed", "11", "--out", "rooms"}).exit_code, 0);
-  Words files;
-  for (int i = 0; i < 6; ++i) files.push_back("rooms/00" + std::to_string(i) + ".ply");
-  register_to("result", files);
-  run({"evaluate", "--poses", "result/poses.json", "--truth", "rooms/truth.json", "--scans", "rooms", "--json",
-       "score.json"});
-  const auto score = read_json(folder() / "score.json");
+  const auto score = score_of_rooms("11");
   EXPECT_EQ(score["wrong"], 0);
   EXPECT_GE(score["ok"], 5) << "without slides three";
   const auto report = read_json(folder() / "result/report.json");

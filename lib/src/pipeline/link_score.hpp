@@ -18,7 +18,7 @@ double rival_log_odds(double consensus, double rival_consensus);
 
 /// What a hypothesis loses to violations of free space that are too few for a veto: 0 or less. Right poses of real and
 /// simulated scenes have 0.002 of them and, nine of ten, at most 0.006; wrong ones that nothing else tells from right
-/// have 0.007 and more, nine of ten (decision 0017).
+/// have 0.007 and more, nine of ten (decision 0018).
 double free_space_log_odds(const FreeSpaceEvidence& free_space);
 
 /// Free space that speaks against a pose by no more bears it out, where enough points tell.

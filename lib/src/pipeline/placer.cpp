@@ -50,8 +50,8 @@ AlignmentEvidence Placer::verify(const Eigen::Isometry3d& T) const {
 Verdict Placer::judge_at(const Eigen::Isometry3d& T, const AlignmentEvidence& evidence) const {
   const Verdict verdict = judge(evidence);
   // Free space takes time: it is not asked where it would not change anything.
-  const bool may_hold = evidence.num_across > 0 && evidence.left_across < 1;
-  return free_space_ && (verdict.accepted || may_hold) ? judge(evidence, free_space_(T)) : verdict;
+  const bool may_change = verdict.accepted || may_be_held_across(evidence);
+  return free_space_ && may_change ? judge(evidence, free_space_(T)) : verdict;
 }
 
 FreeSpaceEvidence Placer::free_space_of(const PlacementCandidate& candidate) const {

@@ -29,9 +29,12 @@ constexpr double kMaxLeftAcross = 0.5;
 
 }  // namespace
 
+bool may_be_held_across(const AlignmentEvidence& evidence) {
+  return evidence.num_across >= kMinAgreeing && evidence.left_across <= kMaxLeftAcross;
+}
+
 bool held_across(const AlignmentEvidence& evidence, const FreeSpaceEvidence& free_space) {
-  return evidence.num_across >= kMinAgreeing && evidence.left_across <= kMaxLeftAcross && free_space.tells() &&
-         free_space_log_odds(free_space) > kBorneOut;
+  return may_be_held_across(evidence) && free_space.tells() && free_space_log_odds(free_space) > kBorneOut;
 }
 
 VerificationOptions verification_at(double voxel_m) {

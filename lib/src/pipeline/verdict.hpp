@@ -24,8 +24,11 @@ struct Verdict {
 /// scenes right poses leave 0.16 to 0.70 in their weakest direction, wrong ones 0.79 and more, most of them above 1.
 constexpr double kMaxLeftAfterSlide = 0.75;
 
-/// Whether what lies across the weakest direction holds a pose by itself, and free space bears it out: along a corridor
-/// most of a scan agrees wherever it slides to.
+/// Whether what lies across the weakest direction holds a pose by itself: along a corridor most of a scan agrees
+/// wherever it slides to.
+bool may_be_held_across(const AlignmentEvidence& evidence);
+
+/// Whether it does, and free space bears it out.
 bool held_across(const AlignmentEvidence& evidence, const FreeSpaceEvidence& free_space);
 
 /// @param free_space  of the same pose, where it was looked at
