@@ -12,6 +12,10 @@
 namespace tcm_icp {
 namespace {
 
+// A voxel's quarter is what counts as the noise of the distance between two surfaces: sqrt(2) times that of one, twice.
+constexpr double kCoarseByNoise = 8, kFineByNoise = 4;
+constexpr double kFineByCoverage = 0.5;
+
 Cloud draw(const Cloud& cloud, int count, std::uint64_t seed, std::string_view stage, const std::string& file) {
   Rng rng = make_stream(seed, stage, file);
   return pick(cloud, normal_space_sample(cloud, static_cast<std::size_t>(count), rng));
@@ -46,7 +50,15 @@ Resolutions choose_resolutions(const std::vector<SampledScan>& scans, const Samp
       fine[i] = voxel_size_for(scans[i].scan.cloud.points, options.fine_voxels);
     }
   });
-  return {median(coarse), median(fine)};
+  std::vector<double> coverage, noise;
+  for (const auto& s : scans) {
+    coverage.push_back(s.scan.coverage_m);
+    noise.push_back(s.scan.noise_m);
+  }
+  const double covered_m = median(coverage), noise_m = median(noise);
+  const double coarse_m = std::max({median(coarse), covered_m, kCoarseByNoise * noise_m});
+  const double fine_m = std::max({median(fine), kFineByCoverage * covered_m, kFineByNoise * noise_m});
+  return {coarse_m, std::min(coarse_m, fine_m)};
 }
 
 PreparedScan prepare_scan(const SampledScan& scan, const Resolutions& resolutions, const PlacementOptions& options,

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 
+#include "tcm_icp/core/coverage.hpp"
 #include "tcm_icp/core/error.hpp"
 #include "tcm_icp/core/neighbor_index.hpp"
 #include "tcm_icp/core/normals.hpp"
+#include "tcm_icp/core/parallel.hpp"
 #include "tcm_icp/core/random.hpp"
 #include "tcm_icp/core/statistics.hpp"
 #include "tcm_icp/core/voxel_sampler.hpp"
@@ -14,6 +16,7 @@ namespace tcm_icp {
 namespace {
 
 constexpr std::size_t kMinPoints = 3;
+constexpr double kSupportShare = 0.5;  // of the coverage: several points of a ring for each to the next ring
 
 Eigen::Vector3d median_point(const Points& points) {
   std::vector<double> values(points.size());
@@ -59,6 +62,27 @@ Points stream_into_sample(Scan& scan, std::size_t max_points) {
   return sample;
 }
 
+// Along a ring points are so dense that a point's nearest neighbours are of one ring, spread by the noise of its ranges:
+// their plane is the scanner's, not the wall's. So planes are fitted to points as dense as surfaces are covered, and a
+// point takes the plane of the nearest of those.
+NormalEstimate normals_of_surfaces(const Scan& scan, const NeighborIndex& index, int num_threads) {
+  const Points& points = scan.cloud.points;
+  if (!(scan.coverage_m > 0)) return estimate_normals(points, index, {}, num_threads);
+  const Points even = voxel_downsample({points, {}}, kSupportShare * scan.coverage_m).points;
+  const NeighborIndex even_index(even);
+  const NormalEstimate planes = estimate_normals(even, even_index, {}, num_threads);
+  NormalEstimate out{Points(points.size()), std::vector<double>(points.size()), std::vector<double>(points.size())};
+  parallel_for(num_threads, points.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::size_t nearest = even_index.nearest(points[i]).index;
+      out.normals[i] = planes.normals[nearest];
+      out.variation[i] = planes.variation[nearest];
+      out.roughness_m[i] = planes.roughness_m[nearest];
+    }
+  });
+  return out;
+}
+
 }  // namespace
 
 SampledScan sample_scan(const std::filesystem::path& path, const PipelineOptions& options, std::uint64_t seed,
@@ -82,9 +106,10 @@ SampledScan sample_scan(const std::filesystem::path& path, const PipelineOptions
   scan.spacing_m = median_spacing(scan.cloud.points, index);
   out.middle = median_point(scan.cloud.points);
   scan.extent_m = robust_extent(scan.cloud.points, out.middle);
+  scan.coverage_m = scan.extent_m > 0 ? coverage_m(scan.cloud.points, scan.extent_m) : 0;
   if (detail == ScanDetail::kPoints) return out;
   if (detail == ScanDetail::kLinePieces) out.line_pieces = find_line_pieces(scan.cloud.points, index);
-  NormalEstimate estimate = estimate_normals(scan.cloud.points, index, {}, num_threads);
+  NormalEstimate estimate = normals_of_surfaces(scan, index, num_threads);
   std::vector<double> roughness;
   for (std::size_t i = 0; i < estimate.normals.size(); ++i) {
     if (!estimate.normals[i].isZero()) roughness.push_back(estimate.roughness_m[i]);

@@ -18,6 +18,7 @@ struct Scan {
   double voxel_size_m = 0;                           ///< [m] voxel edge of the working cloud
   double spacing_m = 0;                              ///< [m] median nearest-neighbour distance of the working cloud
   double noise_m = 0;                                ///< [m] median deviation from the local plane
+  double coverage_m = 0;                             ///< [m] voxel edge from which on its points cover surfaces
   double extent_m = 0;                               ///< [m] 90th percentile of the distance from the median point
   std::uint64_t num_raw_points = 0;                  ///< finite points of the file
   std::uint64_t num_dropped_points = 0;              ///< NaN or infinite points of the file
