@@ -61,8 +61,9 @@ constexpr Names<OutlierMethod, 4> kOutlierMethods{"outliers",
                                                     {"distance", OutlierMethod::kDistance},
                                                     {"lof", OutlierMethod::kLof},
                                                     {"none", OutlierMethod::kNone}}}};
-constexpr Names<Refinement, 4> kRefinements{"refinement",
-                                            {{{"none", Refinement::kNone},
+constexpr Names<Refinement, 5> kRefinements{"refinement",
+                                            {{{"auto", Refinement::kAuto},
+                                              {"none", Refinement::kNone},
                                               {"descent", Refinement::kDescent},
                                               {"annealing", Refinement::kAnnealing},
                                               {"both", Refinement::kDescentThenAnnealing}}}};
@@ -147,6 +148,7 @@ po::options_description configurable(RegisterOptions& o, Choices& c) {
       "z points up in every scan, within 10 degrees: links are searched upright only")(
       "merge-order", value(c.merge_order),
       "which scan is merged next: tcm (as the profile measures it), paper-tcm, robust-tcm, overlap, file or random")(
+      "confidence", value(p.decision.confidence), "least probability of a place for a scan to count as registered")(
       "solver", value(c.solver), "simplex solver: glpk or cgal (exact, slow, for comparison)");
   po::options_description placement("Simplex, refinement, adjustment");
   placement.add_options()(
@@ -157,12 +159,10 @@ po::options_description configurable(RegisterOptions& o, Choices& c) {
       "lp.coarse-points", value(p.placement.coarse_points), "points of a scan in the coarse programs")(
       "lp.fine-points", value(p.placement.fine_points), "points of a scan in the fine programs")(
       "lp.held-out-points", value(p.placement.held_out_points), "points kept from every fit, for verification")(
-      "refinement", value(c.refinement), "none, descent, annealing or both")(
+      "refinement", value(c.refinement), "none, descent, annealing, both; auto: both in the paper's profile, none in robust")(
       "refinement.points", value(p.refinement.points), "points the cost is taken over, and as many held out")(
       "descent.steps", value(p.refinement.descent_steps), "most steps of the descent")(
       "annealing.steps", value(p.refinement.annealing_steps), "steps of the annealing after the simplex")(
-      "annealing.search-steps", value(p.placement.search_steps),
-      "steps of the search where the fit from an initial pose fails")(
       "annealing.initial-temperature", value(p.refinement.initial_temperature), "in units of the cost at the start")(
       "annealing.final-temperature", value(p.refinement.final_temperature),
       "the same, at the end; cooling is geometric")("adjustment.lp-steps", value(p.placement.adjustment_lp_steps),

@@ -1,4 +1,4 @@
-"""Reads the vertices of binary PLY files. Needs numpy."""
+"""Reads and writes the vertices of binary PLY files. Needs numpy."""
 
 import numpy as np
 
@@ -39,3 +39,11 @@ def read_points(path):
     """(N, 3) points; those that are not finite are left out."""
     points = coordinates(read_ply(path))
     return points[np.isfinite(points).all(1)]
+
+
+def write_points(path, points):
+    """Binary PLY with x, y, z as doubles."""
+    with open(path, "wb") as f:
+        f.write(b"ply\nformat binary_little_endian 1.0\nelement vertex %d\n" % len(points))
+        f.write(b"property double x\nproperty double y\nproperty double z\nend_header\n")
+        f.write(np.ascontiguousarray(points, "<f8").tobytes())

@@ -10,6 +10,8 @@ std::string_view to_string(CoarseMethod method) {
       return "height map";
     case CoarseMethod::kSlide:
       return "slide";
+    case CoarseMethod::kGuess:
+      return "initial pose";
   }
   return "unknown";
 }

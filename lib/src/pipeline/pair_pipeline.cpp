@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "name_order.hpp"
 #include "prepared_scan.hpp"
 #include "scan_set.hpp"
 #include "stage_clock.hpp"
@@ -118,11 +117,7 @@ PipelineResult register_by_pairs(const std::vector<std::filesystem::path>& paths
                                  const PairMethod& method) {
   options.validate();
   check_paths(paths, initial_poses);
-  const std::vector<std::size_t> order = order_by_name(paths);
-  PipelineResult result =
-      run_pairs(in_order(paths, order), in_order(initial_poses, order), options, context, name, method);
-  restore_order(order, result);
-  return result;
+  return run_pairs(paths, initial_poses, options, context, name, method);
 }
 
 }  // namespace tcm_icp

@@ -26,7 +26,6 @@ void PlacementOptions::validate() const {
   require(coarse_points >= 100, "placement coarse_points must be at least 100", coarse_points);
   require(fine_points >= 100, "placement fine_points must be at least 100", fine_points);
   require(held_out_points >= 100, "placement held_out_points must be at least 100", held_out_points);
-  require(search_steps >= 0, "placement search_steps must be at least 0", search_steps);
   require(adjustment_lp_steps >= 0, "placement adjustment_lp_steps must be at least 0", adjustment_lp_steps);
   require(adjustment_steps >= 0, "placement adjustment_steps must be at least 0", adjustment_steps);
 }
@@ -48,6 +47,7 @@ void PipelineOptions::validate() const {
   lp.validate();
   placement.validate();
   refinement.validate();
+  decision.validate();
 }
 
 }  // namespace tcm_icp

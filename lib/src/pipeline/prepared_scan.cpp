@@ -16,15 +16,15 @@ namespace {
 constexpr double kCoarseByNoise = 8, kFineByNoise = 4;
 constexpr double kFineByCoverage = 0.5;
 
-Cloud draw(const Cloud& cloud, int count, std::uint64_t seed, std::string_view stage, const std::string& file) {
-  Rng rng = make_stream(seed, stage, file);
+Cloud draw(const Cloud& cloud, int count, std::uint64_t seed, std::string_view stage, const std::string& key) {
+  Rng rng = make_stream(seed, stage, key);
   return pick(cloud, normal_space_sample(cloud, static_cast<std::size_t>(count), rng));
 }
 
 // Splits one draw so that no held-out point is in the fit.
 void draw_fit_and_held_out(const Cloud& cloud, const PlacementOptions& options, std::uint64_t seed,
-                           const std::string& file, Cloud& fit, Cloud& held_out) {
-  Rng rng = make_stream(seed, "fit and held-out points", file);
+                           const std::string& key, Cloud& fit, Cloud& held_out) {
+  Rng rng = make_stream(seed, "fit and held-out points", key);
   const auto wanted = static_cast<std::size_t>(options.fine_points + options.held_out_points);
   const auto drawn = normal_space_sample(cloud, wanted, rng);
   // In the proportion asked for, also where the cloud has fewer points than that.
@@ -74,13 +74,13 @@ PreparedScan prepare_scan(const SampledScan& scan, const Resolutions& resolution
                    {},
                    {},
                    {}};
-  const std::string& file = scan.scan.file;
+  const std::string key = stream_key(scan.scan);
   out.coarse_sample =
-      draw(voxel_downsample(scan.scan.cloud, resolutions.coarse_m), options.coarse_points, seed, "coarse points", file);
-  draw_fit_and_held_out(out.pyramid.level(0).cloud, options, seed, file, out.fit_sample, out.held_out_sample);
+      draw(voxel_downsample(scan.scan.cloud, resolutions.coarse_m), options.coarse_points, seed, "coarse points", key);
+  draw_fit_and_held_out(out.pyramid.level(0).cloud, options, seed, key, out.fit_sample, out.held_out_sample);
   out.moments = out.held_out_sample.points;
-  out.fine_sample = draw(out.fine.cloud, options.fine_points, seed, "fine points", file);
-  out.share = make_stream(seed, "adjustment share", file)();
+  out.fine_sample = draw(out.fine.cloud, options.fine_points, seed, "fine points", key);
+  out.share = make_stream(seed, "adjustment share", key)();
   out.tcm_points = out.pyramid.level(std::min<std::size_t>(1, kNumPyramidLevels - 1)).cloud.points;
   return out;
 }

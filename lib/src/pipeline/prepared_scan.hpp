@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "scan_sampling.hpp"
@@ -12,6 +13,9 @@
 #include "tcm_icp/visibility/sight.hpp"
 
 namespace tcm_icp {
+
+/// Pairs of scans, a < b, by their places in a set.
+using ScanPairs = std::vector<std::pair<std::size_t, std::size_t>>;
 
 /// Voxel edges common to all scans of a set [m].
 struct Resolutions {
@@ -28,8 +32,7 @@ struct PreparedScan {
   PointMoments moments;   ///< of held_out_sample
   Cloud fine_sample;      ///< surfaces at the fine voxel, for the adjustment
   Points tcm_points;      ///< thinned to the pyramid's second level
-  /// Which of its neighbours' points it is adjusted with: from its file's name, so that the order of the files decides
-  /// nothing.
+  /// Which of its neighbours' points it is adjusted with: drawn by its content.
   std::size_t share = 0;
   Sight sight{};  ///< none until make_sights(); groups of scans have none
 };

@@ -93,7 +93,7 @@ SampledScan sample_scan(const std::filesystem::path& path, const PipelineOptions
   scan.file = path.filename().string();
   const Points sample = stream_into_sample(scan, options.sampling.max_working_points);
 
-  Rng rng = make_stream(seed, "outliers", scan.file);
+  Rng rng = make_stream(seed, "outliers", stream_key(scan));
   out.outliers = learn_outlier_rule(sample, scan.voxel_size_m, options.outliers, rng, num_threads);
   for (const auto& p : sample) {
     if (!out.outliers.is_outlier(p)) scan.cloud.points.push_back(p);

@@ -15,10 +15,10 @@ std::vector<std::optional<Viewpoint>> find_viewpoints(const std::vector<SampledS
     for (std::size_t i = begin; i < end; ++i) {
       const Scan& scan = scans[i].scan;
       // Scan lines tell it sharply, where there are any, and also outdoors, where little hides behind anything.
-      Rng for_lines = make_stream(context.seed, "scan lines", scan.file);
+      Rng for_lines = make_stream(context.seed, "scan lines", stream_key(scan));
       out[i] = find_viewpoint_by_lines(scan.cloud, scans[i].line_pieces, for_lines);
       if (out[i]) continue;
-      Rng rng = make_stream(context.seed, "viewpoint", scan.file);
+      Rng rng = make_stream(context.seed, "viewpoint", stream_key(scan));
       out[i] = find_viewpoint(scan.cloud, std::array{Eigen::Vector3d(-scan.origin)}, rng);
     }
   });

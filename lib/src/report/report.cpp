@@ -24,11 +24,7 @@ Json to_json(const AlignmentEvidence& e) {
           {"slide_m", e.slide_m},
           {"left_after_slide", e.left_after_slide},
           {"across", e.num_across},
-          {"left_across", e.left_across},
-          {"runner_up", number(e.runner_up)},
-          {"searched", e.searched},
-          {"links", e.num_links},
-          {"link_log_odds", number(e.link_log_odds)}};
+          {"left_across", e.left_across}};
 }
 
 Json to_json(const RegistrationResult& r) {
@@ -42,16 +38,12 @@ Json to_json(const RegistrationResult& r) {
 Json to_json(const MergeRecord& m, const PipelineResult& result) {
   Json j{
       {"scan", result.scans[m.scan].file},
-      {"attempt", m.attempt},
       {"accepted", m.accepted},
       {"reason", m.reason},
       {"tcm", {{"tau", number(m.tcm.tau())}, {"f", number(m.tcm.f)}, {"g", number(m.tcm.g)}, {"h", number(m.tcm.h)}}},
-      {"simplex", to_json(m.simplex)},
-      {"searched_by_annealing", m.searched}};
-  for (const std::size_t i : m.members) j["members"].push_back(result.scans[i].file);
+      {"simplex", to_json(m.simplex)}};
   if (m.descent) j["descent"] = to_json(*m.descent);
   if (m.annealing) j["annealing"] = to_json(*m.annealing);
-  if (m.evidence) j["evidence"] = to_json(*m.evidence);
   const long long descent = m.descent ? m.descent->num_steps : 0, annealing = m.annealing ? m.annealing->num_steps : 0;
   j["iterations"] = {{"simplex_pivots", m.simplex.lp.num_pivots},
                      {"descent_steps", descent},
@@ -97,13 +89,26 @@ Json options_json(const PipelineOptions& o, const RunContext& context) {
           {"coarse_points", o.placement.coarse_points},
           {"fine_points", o.placement.fine_points},
           {"held_out_points", o.placement.held_out_points},
-          {"search_steps", o.placement.search_steps},
           {"adjustment_lp_steps", o.placement.adjustment_lp_steps},
           {"adjustment_steps", o.placement.adjustment_steps},
           {"descent_steps", o.refinement.descent_steps},
           {"annealing_steps", o.refinement.annealing_steps},
           {"seed", context.seed},
           {"threads", context.num_threads}};
+}
+
+// What was measured of a scan's place, and what was made of it.
+Json decision_json(const PipelineResult& result, std::size_t scan) {
+  const Decision& d = result.decisions[scan];
+  Json j{{"reason", to_string(d.reason)}, {"probability", d.probability}};
+  const auto& m = result.measurements[scan];
+  if (!m) return j;
+  j["lead"] = number(m->lead);
+  j["support"] = number(m->support);
+  j["other_place_m"] = m->other_distance ? number(*m->other_distance) : Json(nullptr);
+  j["moves_with"] = m->num_moved - 1;
+  j["features"] = result.features[scan];
+  return j;
 }
 
 const char* name_of(ScanStatus status) {
@@ -148,6 +153,9 @@ Json report_object(const PipelineResult& result, const PipelineOptions& options,
     report["scans"][i]["component"] = result.poses[i].component;
     report["scans"][i]["middle_m"] = middle_json(result.poses[i], result.scans[i]);
     report["scans"][i]["evidence"] = result.evidence[i] ? to_json(*result.evidence[i]) : Json(nullptr);
+    if (!result.measurements.empty()) {
+      report["scans"][i]["decision"] = decision_json(result, i);
+    }
     if (!result.viewpoints.empty()) {
       report["scans"][i]["viewpoint"] = result.viewpoints[i] ? to_json(*result.viewpoints[i]) : Json(nullptr);
       report["scans"][i]["free_space"] = to_json(result.free_space[i]);
@@ -166,6 +174,7 @@ Json report_object(const PipelineResult& result, const PipelineOptions& options,
     report["links"].push_back({{"a", result.scans[l.a].file},
                                {"b", result.scans[l.b].file},
                                {"verdict", l.verdict},
+                               {"probability", l.probability},
                                {"reason", l.reason},
                                {"evidence", to_json(l.evidence)},
                                {"free_space", to_json(l.free_space)}});
@@ -180,8 +189,8 @@ Json report_object(const PipelineResult& result, const PipelineOptions& options,
                                     {"coarse_score", number(h.candidate.score)},
                                     {"coarse_margin", number(h.candidate.margin)},
                                     {"log_odds", h.log_odds},
-                                    {"trust", h.trust},
                                     {"fate", h.fate},
+                                    {"features", h.features},
                                     {"evidence", to_json(h.evidence)},
                                     {"free_space", to_json(h.free_space)}});
   }

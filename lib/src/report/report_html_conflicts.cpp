@@ -37,7 +37,7 @@ std::string conflicts_section(const Json& report) {
   for (const Json* h : unused_links(report)) {
     rows.push_back({scan_label(report, h->at("a")), scan_label(report, h->at("b")),
                     escaped(h->at("method").get<std::string>()), odds(h->at("log_odds").get<double>()),
-                    percent(h->at("trust")), percent(h->at("evidence").at("overlap")), fate_in_words(*h)});
+                    percent(h->at("evidence").at("overlap")), fate_in_words(*h)});
   }
   if (rows.empty()) return "";
   return section(
@@ -46,7 +46,6 @@ std::string conflicts_section(const Json& report) {
              {"scan", "name"},
              {"found by", "text"},
              {"odds by the<br/>pair alone", "number"},
-             {"borne out<br/>by loops", "number"},
              {"overlap", "number"},
              {"what became of it", "wide"}},
             rows) +

@@ -12,20 +12,13 @@ std::string trace(const Json& merge, const char* name) {
          (t.at("kept").get<bool>() ? ", kept" : ", not kept");
 }
 
-std::string scan_of(const Json& report, const Json& merge) {
-  std::string out = scan_label(report, merge.at("scan"));
-  if (merge.contains("members")) out += " with its group of " + std::to_string(merge.at("members").size());
-  if (merge.at("attempt") != 1) out += ", attempt " + std::to_string(merge.at("attempt").get<int>());
-  return out;
-}
-
 Rows merge_rows(const Json& report, Json& sum) {
   Rows rows;
   for (const auto& m : report.at("merges")) {
     const Json& lp = m.at("simplex").at("lp");
     const bool accepted = m.at("accepted").get<bool>();
-    rows.push_back({std::to_string(rows.size() + 1), scan_of(report, m), figure(m.at("tcm").at("tau")),
-                    badge(accepted ? "good" : "bad", accepted ? "merged" : "not merged"), count(lp.at("programs")),
+    rows.push_back({std::to_string(rows.size() + 1), scan_label(report, m.at("scan")), figure(m.at("tcm").at("tau")),
+                    badge(accepted ? "good" : "fair", accepted ? "fitted" : "not fitted"), count(lp.at("programs")),
                     count(lp.at("pivots")), figure(lp.at("seconds"), 1000),
                     figure(m.at("simplex").at("median_residual_m"), 1000), trace(m, "descent"), trace(m, "annealing"),
                     accepted ? "" : sentence(m.at("reason"))});

@@ -6,10 +6,10 @@
 
 namespace tcm_icp {
 
-/// kSlide: a pose of one of the other two, moved along a corridor or a street.
-enum class CoarseMethod { kFeatures, kHeightMap, kSlide };
+/// kSlide: a pose of one of the other two, moved along a corridor or a street. kGuess: the user's initial poses.
+enum class CoarseMethod { kFeatures, kHeightMap, kSlide, kGuess };
 
-/// "features", "height map" or "slide".
+/// "features", "height map", "slide" or "initial pose".
 std::string_view to_string(CoarseMethod method);
 
 struct PoseCandidate {

@@ -24,4 +24,8 @@ struct Scan {
   std::uint64_t num_dropped_points = 0;              ///< NaN or infinite points of the file
 };
 
+/// What random numbers of a scan are drawn by: the number of its points, which neither a name nor a frame nor a unit
+/// changes. Two scans may have one key: each draws from its own points.
+inline std::string stream_key(const Scan& scan) { return std::to_string(scan.num_raw_points); }
+
 }  // namespace tcm_icp

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <string>
 
+#include "tcm_icp/decision/scan_decision.hpp"
 #include "tcm_icp/outliers/outlier_removal.hpp"
 #include "tcm_icp/registration/l1_fit.hpp"
 #include "tcm_icp/registration/lp_registration.hpp"
@@ -16,7 +17,9 @@ enum class Profile {
   kPaper,   ///< the paper to the letter
 };
 
-enum class Refinement { kNone, kDescent, kAnnealing, kDescentThenAnnealing };
+/// kAuto: none in the robust profile, where the joint adjustment leaves nothing to refine (docs/results.md); descent, then
+/// annealing in the paper's.
+enum class Refinement { kAuto, kNone, kDescent, kAnnealing, kDescentThenAnnealing };
 
 /// Which of the scans that may be merged is merged next.
 enum class MergeOrder {
@@ -43,7 +46,6 @@ struct PlacementOptions {
   int coarse_points = 1500;                                  ///< >= 100; points of a scan in its coarse linear programs
   int fine_points = 3000;                                    ///< >= 100; and in the finer ones
   int held_out_points = 1500;                                ///< >= 100; points kept from every fit, for verification
-  int search_steps = 1500;      ///< >= 0; annealing steps where the fit from the initial guess fails verification
   int adjustment_lp_steps = 2;  ///< >= 0; linear programs over all poses at once, at the fine resolution
   int adjustment_steps = 10;    ///< >= 0; Gauss-Newton steps over all poses at once, after the programs
   void validate() const;        ///< throws InvalidOptions
@@ -51,13 +53,23 @@ struct PlacementOptions {
 
 /// Refinement after the simplex. Lengths are in units of the noise found by the fit.
 struct RefinementOptions {
-  Refinement method = Refinement::kDescentThenAnnealing;
+  Refinement method = Refinement::kAuto;
   int points = 160;                   ///< >= 20; points the cost is taken over, and as many held out
   int descent_steps = 8;              ///< >= 1
   int annealing_steps = 100;          ///< >= 0
   double initial_temperature = 0.02;  ///< > 0; in units of the cost at the start
   double final_temperature = 0.0005;  ///< > 0
   void validate() const;              ///< throws InvalidOptions
+};
+
+/// Inference over all hypotheses of a set.
+struct InferenceOptions {
+  /// Logarithm of how many clearly different poses a pair has that a wrong hypothesis may be taken by: what agreement by
+  /// chance is worth. Far fewer than fit into the search's space, since wrong hypotheses, too, lay walls on walls.
+  double log_poses = 3;
+  double most_log_odds = 8;     ///< > 0; of one hypothesis: no pair is surer
+  int max_starts = 24;          ///< >= 1; strongest hypotheses that configurations are grown from
+  int max_sweeps = 10;          ///< >= 1; of moves of single scans and of groups
 };
 
 struct PipelineOptions {
@@ -73,6 +85,8 @@ struct PipelineOptions {
   L1FitOptions lp;
   PlacementOptions placement;
   RefinementOptions refinement;
+  InferenceOptions inference;
+  DecisionOptions decision;
   void validate() const;  ///< throws InvalidOptions naming field, value and bound
 };
 

@@ -11,7 +11,9 @@
 #include "tcm_icp/baselines/pair_fit.hpp"
 #include "tcm_icp/coarse/pose_candidate.hpp"
 #include "tcm_icp/graph/correspondence_graph.hpp"
+#include "tcm_icp/decision/scan_decision.hpp"
 #include "tcm_icp/io/pose_io.hpp"
+#include "tcm_icp/links/link_measurements.hpp"
 #include "tcm_icp/outliers/outlier_removal.hpp"
 #include "tcm_icp/registration/linear_program.hpp"
 #include "tcm_icp/registration/link_strength.hpp"
@@ -40,18 +42,14 @@ struct ScanSummary {
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();  ///< [m] median point, local frame
 };
 
-/// One attempt to merge a scan into S.
+/// How a scan was merged into S.
 struct MergeRecord {
   std::size_t scan = 0;
-  std::vector<std::size_t> members;  ///< of the group merged as one, with `scan` as its reference; else none
-  int attempt = 1;                   ///< a scan that fails is tried again when S, or what links it to S, has grown
   TcmTerms tcm;                      ///< against S, before the simplex
   RegistrationResult simplex;
   std::optional<RefinementTrace> descent;
   std::optional<RefinementTrace> annealing;
-  std::optional<AlignmentEvidence> evidence;  ///< robust profile only
-  bool searched = false;                      ///< annealing from the initial guess was needed, or links were followed
-  bool accepted = false;
+  bool accepted = false;  ///< the fit was taken: in the robust profile it stays where links lead
   std::string reason;
 };
 
@@ -60,6 +58,7 @@ struct LinkRecord {
   std::size_t a = 0, b = 0;    ///< the file of a comes first by name
   AlignmentEvidence evidence;  ///< of the direction that overlaps more
   FreeSpaceEvidence free_space;
+  double probability = 0;  ///< that the pose is right, by the pair alone
   std::string verdict, reason;
   std::optional<LinkStrength> strength;  ///< in the reference's local frame; robust profile only
 };
@@ -84,7 +83,7 @@ struct LinkHypothesisRecord {
   AlignmentEvidence evidence;                               ///< of the pair alone
   FreeSpaceEvidence free_space;
   double log_odds = 0;  ///< that it is right, by the pair alone
-  double trust = 1;     ///< 0..1; how far loops of links bear that out
+  LinkFeatures features{};  ///< what that was told from
   std::string fate;     ///< confirmed or contradicted by the final poses; open where no group has both scans
 };
 
@@ -103,6 +102,10 @@ struct PipelineResult {
   /// Nothing for the reference, and in the paper profile.
   std::vector<std::optional<AlignmentEvidence>> evidence;
   std::vector<FreeSpaceEvidence> free_space;  ///< of the same poses, against the neighbours together
+  /// Of each scan's last place in a component; robust profile only.
+  std::vector<std::optional<ScanMeasurements>> measurements;
+  std::vector<DecisionFeatures> features;  ///< of the same; 0 where there are none
+  std::vector<Decision> decisions;
   /// Of each scan, in raw coordinates; not looked for in the paper profile.
   std::vector<std::optional<Viewpoint>> viewpoints;
   CorrespondenceGraph graph;

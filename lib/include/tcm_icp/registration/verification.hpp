@@ -26,16 +26,6 @@ struct AlignmentEvidence {
   /// wherever a scan slides to, and outnumber the door frames that tell. 1 where none agrees.
   double left_across = 1;
   std::size_t num_across = 0;  ///< of these points, those that agree
-  /// Consensus of the best other pose found nearby (structure that repeats), by this pose's: 1 is a tie. 0 where none
-  /// was found; NaN where none was looked for.
-  double runner_up = std::numeric_limits<double>::quiet_NaN();
-  /// The pose came from a wide search, which meets more chance fits than a start near the guess.
-  bool searched = false;
-  /// What links to different neighbours, found without a guess, say of this pose: log-odds that it is right, those that
-  /// lead elsewhere counting against it. NaN where none was looked for.
-  double link_log_odds = std::numeric_limits<double>::quiet_NaN();
-  std::size_t num_links = 0;  ///< links that lead to this pose
-
   /// Share of all held-out points that agree.
   double consensus() const { return overlap * inlier_share; }
 };

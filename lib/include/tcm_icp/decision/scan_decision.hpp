@@ -1,0 +1,74 @@
+#pragma once
+// Whether a scan is where it was put: one decision from everything that was measured.
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tcm_icp/registration/verification.hpp"
+#include "tcm_icp/visibility/free_space.hpp"
+
+namespace tcm_icp {
+
+/// What speaks for and against one scan's place in its component. Whoever measures does not judge.
+struct ScanMeasurements {
+  AlignmentEvidence evidence;    ///< of its held-out points against all scans it overlaps with, together
+  FreeSpaceEvidence free_space;  ///< against the same scans
+  double lead = 0;  ///< log-odds of its place by the hypotheses of pairs, against the best other place or none
+  double support = 0;                    ///< the same, against none
+  std::optional<double> other_distance;  ///< [m] rms distance to that other place; none: nothing leads elsewhere
+  std::size_t num_moved = 1;             ///< scans that would move with it
+  std::vector<double> link_log_odds;     ///< of each pair it overlaps in, at the final poses
+};
+
+/// What scans of a component usually show.
+struct ComponentReference {
+  double inlier_share = 0;  ///< median
+  double residual_m = 0;    ///< [m] lower median: of two scans the better counts
+  static ComponentReference of(const std::vector<ScanMeasurements>& members);
+};
+
+inline constexpr std::array<std::string_view, 17> kDecisionFeatureNames{
+    "lead",          "log_lead",   "log_overlap",   "log_inlier_share", "inliers_by_set", "residual_by_set",
+    "weakest_left",  "mean_left",  "left_across",   "across_unknown",   "violations",     "opposed",
+    "space_unseen",  "best_link",  "mean_link",     "contradicting",    "few_agree"};
+using DecisionFeatures = std::array<double, kDecisionFeatureNames.size()>;
+
+/// Finite, without a unit, within bounds.
+DecisionFeatures decision_features(const ScanMeasurements& m, const ComponentReference& component);
+
+enum class Reason {
+  kNotDecided,
+  kReference,
+  kAccepted,
+  kNoLink,        ///< nothing joins it to another scan
+  kAmbiguous,     ///< another place fits about as well
+  kMisfit,        ///< its points agree less, or less closely, than those of its set do
+  kSlides,        ///< it can slide without losing agreement
+  kSeenThrough,   ///< scans would have seen through walls
+  kTooFewPoints,  ///< too few points on surfaces to tell
+};
+
+std::string_view to_string(Reason reason);
+
+struct DecisionOptions {
+  double confidence = 0.999;  ///< 0..1; least probability of a scan that counts as registered
+  void validate() const;      ///< throws InvalidOptions
+};
+
+struct Decision {
+  Reason reason = Reason::kNotDecided;
+  double probability = 0;  ///< that the place is right
+  std::string text;        ///< the reason for a person, with its figures
+  bool accepted() const { return reason == Reason::kAccepted || reason == Reason::kReference; }
+};
+
+/// Logistic model, fitted by scripts/calibrate.py to simulated sets (scan_model.inc). The reason is what took most from
+/// the log-odds, compared with what right scans usually have.
+Decision decide(const ScanMeasurements& measurements, const ComponentReference& component,
+                const DecisionOptions& options);
+
+}  // namespace tcm_icp

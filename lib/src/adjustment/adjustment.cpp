@@ -1,0 +1,173 @@
+#include "adjustment/adjustment.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "registration/joint_normal_equations.hpp"
+#include "registration/link_scores.hpp"
+#include "tcm_icp/core/parallel.hpp"
+#include "tcm_icp/graph/correspondence_measure.hpp"
+#include "tcm_icp/registration/joint_lp.hpp"
+
+namespace tcm_icp {
+namespace {
+
+// What bounds the joint program: matches of a link, which also lets links weigh alike, and of all together. The exact
+// solver's time grows with their square.
+constexpr std::size_t kLpMatchesOfLink = 150;
+constexpr std::size_t kLpMatches = 8'000;
+constexpr std::size_t kLpMatchesExact = 600;
+
+std::size_t lp_matches_of_link(std::size_t num_links, LpSolver solver) {
+  const std::size_t all = solver == LpSolver::kCgal ? kLpMatchesExact : kLpMatches;
+  return std::clamp<std::size_t>(all / std::max<std::size_t>(1, num_links), 1, kLpMatchesOfLink);
+}
+
+class Adjustment {
+ public:
+  Adjustment(const std::vector<PreparedScan>& scans, const ScanPairs& pairs, std::size_t reference,
+             const PipelineOptions& options, const RunContext& context,
+             std::vector<Eigen::Isometry3d>& T_reference_scan)
+      : scans_(scans),
+        pairs_(pairs),
+        reference_(reference),
+        options_(options),
+        context_(context),
+        T_reference_scan_(T_reference_scan) {}
+
+  void lp_step(double gate_m) {
+    const std::size_t most = lp_matches_of_link(2 * pairs_.size(), options_.lp.lp.solver);
+    const std::vector<JointLink> links = thinned(match(gate_m), most);
+    const std::vector<TwistFrame> frames = scan_frames(scans_, T_reference_scan_);
+    JointLpOptions lp_options;
+    lp_options.lp = options_.lp.lp;
+    lp_options.tie_breaking = options_.lp.tie_breaking;
+    lp_options.seed = context_.seed;
+    const JointLpResult lp = solve_joint_lp(frames, reference_, links, lp_options);
+    record_.lp += LpFigures{1, lp.pivots, lp.objective_m, lp.duality_gap, lp.seconds};
+    record_.lp_status = lp.status;
+    record_.num_lp_matches = lp.num_matches;
+    if (!lp.optimal()) {
+      context_.warn("a joint linear program ended with " + std::string(to_string(lp.status)) +
+                    "; its step is left out");
+      return;
+    }
+    record_.lp_rms_move_m = move(frames, lp.steps_m);
+    record_.outlying_pairs.clear();
+    const std::vector<std::size_t> outlying = outlying_links(lp.link_medians_m, robust_noise_m(links));
+    // A pair is two links, 2 k and 2 k + 1. A wrong pose shows in both, chance and a one-sided view in one.
+    for (std::size_t i = 1; i < outlying.size(); ++i) {
+      if (outlying[i] % 2 == 1 && outlying[i - 1] + 1 == outlying[i]) {
+        record_.outlying_pairs.push_back(pairs_[outlying[i] / 2]);
+      }
+    }
+  }
+
+  /// False where there is nothing to match or nothing left to improve, or where the equations have no solution.
+  bool least_squares_step(double gate_m) {
+    const std::vector<JointLink> links = match(gate_m);
+    const double threshold_m = kHuberFactor * robust_noise_m(links);
+    if (!(threshold_m > 0)) return false;
+    const std::vector<TwistFrame> frames = scan_frames(scans_, T_reference_scan_);
+    std::vector<LinkSums> sums(links.size());
+    parallel_for(context_.num_threads, links.size(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t k = begin; k < end; ++k) {
+        sums[k] = huber_sums(links[k], frames[links[k].target], frames[links[k].source], threshold_m);
+      }
+    });
+    JointNormalEquations equations(scans_.size(), reference_);
+    for (std::size_t k = 0; k < links.size(); ++k) equations.add(links[k], sums[k]);
+    const Eigen::VectorXd x = equations.solve();
+    if (x.size() == 0) {
+      context_.warn("the joint adjustment's equations could not be solved; poses stay as they were");
+      return false;
+    }
+    std::vector<Twist> steps_m(scans_.size());
+    for (std::size_t i = 0; i < steps_m.size(); ++i) steps_m[i] = x.segment<6>(static_cast<Eigen::Index>(6 * i));
+    record_.rms_move_m = move(frames, steps_m);
+    ++record_.num_steps;
+    return true;
+  }
+
+  const AdjustmentRecord& record() const { return record_; }
+
+ private:
+  std::vector<JointLink> match(double gate_m) const {
+    return match_pairs(scans_, pairs_, T_reference_scan_, gate_m, context_.num_threads);
+  }
+
+  /// Root mean square [m] over the scans.
+  double move(const std::vector<TwistFrame>& frames, const std::vector<Twist>& steps_m) {
+    double sum_m2 = 0;
+    for (std::size_t i = 0; i < scans_.size(); ++i) {
+      if (i == reference_ || steps_m[i].isZero()) continue;
+      T_reference_scan_[i] = frames[i].moved(T_reference_scan_[i], steps_m[i]);
+      sum_m2 += steps_m[i].squaredNorm();
+    }
+    return std::sqrt(sum_m2 / static_cast<double>(scans_.size()));
+  }
+
+  const std::vector<PreparedScan>& scans_;
+  const ScanPairs& pairs_;
+  std::size_t reference_;
+  const PipelineOptions& options_;
+  const RunContext& context_;
+  std::vector<Eigen::Isometry3d>& T_reference_scan_;
+  AdjustmentRecord record_;
+};
+
+}  // namespace
+
+ScanPairs overlapping_pairs(const std::vector<PreparedScan>& scans,
+                            const std::vector<Eigen::Isometry3d>& T_reference_scan, const std::vector<bool>& placed,
+                            double min_overlap, int num_threads) {
+  ScanPairs candidates;
+  for (std::size_t a = 0; a < scans.size(); ++a) {
+    for (std::size_t b = a + 1; b < scans.size(); ++b) {
+      if (placed[a] && placed[b]) candidates.emplace_back(a, b);
+    }
+  }
+  std::vector<char> keep(candidates.size(), 0);
+  parallel_for(num_threads, candidates.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto [a, b] = candidates[i];
+      const PyramidLevel& level_a = scans[a].pyramid.level(1);
+      const PyramidLevel& level_b = scans[b].pyramid.level(1);
+      const double share = overlap({level_a.cloud.points, level_a.index}, {level_b.cloud.points, level_b.index},
+                                   T_reference_scan[a].inverse() * T_reference_scan[b], level_a.voxel_size_m);
+      keep[i] = share >= min_overlap ? 1 : 0;
+    }
+  });
+  ScanPairs pairs;
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    if (keep[i] != 0) pairs.push_back(candidates[i]);
+  }
+  return pairs;
+}
+
+AdjustmentRecord adjust_poses(const std::vector<PreparedScan>& scans, const ScanPairs& pairs, std::size_t reference,
+                              const Resolutions& resolutions, const PipelineOptions& options, const RunContext& context,
+                              std::vector<Eigen::Isometry3d>& T_reference_scan) {
+  Adjustment adjustment(scans, pairs, reference, options, context, T_reference_scan);
+  const int lp_steps = options.placement.adjustment_lp_steps, steps = options.placement.adjustment_steps;
+  const double first_m = kGateInVoxels * resolutions.coarse_m, last_m = kGateInVoxels * resolutions.fine_m;
+  const auto gate_m = [&](double share) { return first_m * std::pow(last_m / first_m, std::min(1.0, share)); };
+  int done = 0;
+  const auto report = [&] {
+    context.report("adjusting", static_cast<std::size_t>(done++), static_cast<std::size_t>(lp_steps + steps));
+  };
+  for (int step = 0; step < lp_steps && !pairs.empty(); ++step) {
+    report();
+    adjustment.lp_step(gate_m(static_cast<double>(step) / std::max(1, lp_steps - 1)));
+  }
+  for (int step = 0; step < steps; ++step) {
+    report();
+    // The gate reaches its last size half-way, so that the second half settles; the programs have brought it there.
+    const double share = lp_steps > 0 ? 1 : 2.0 * step / std::max(1, steps - 1);
+    if (!adjustment.least_squares_step(gate_m(share))) break;
+  }
+  return adjustment.record();
+}
+
+}  // namespace tcm_icp

@@ -1,0 +1,22 @@
+#include "adjustment/uncertainty.hpp"
+
+#include "tcm_icp/core/parallel.hpp"
+
+namespace tcm_icp {
+
+void measure_uncertainty(const std::vector<PreparedScan>& scans, const ScanPairs& pairs, std::size_t reference,
+                         const Resolutions& resolutions, const std::vector<Eigen::Isometry3d>& T_reference_scan,
+                         int num_threads, JointUncertainty& uncertainty, std::vector<LinkRecord>& links) {
+  const std::vector<JointLink> matches =
+      match_pairs(scans, pairs, T_reference_scan, kGateInVoxels * resolutions.fine_m, num_threads);
+  PoseCovarianceOptions options;
+  options.smallest_block_m = resolutions.fine_m;
+  uncertainty = estimate_uncertainty(scan_frames(scans, T_reference_scan), reference, matches, options);
+  parallel_for(num_threads, pairs.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      links[k].strength = link_strength({matches[2 * k], matches[2 * k + 1]}, uncertainty.noise_m, uncertainty.block_m);
+    }
+  });
+}
+
+}  // namespace tcm_icp

@@ -1,0 +1,18 @@
+#pragma once
+// How well the final poses are determined, from the matches of the joint adjustment's last step.
+
+#include <Eigen/Geometry>
+#include <vector>
+
+#include "adjustment/joint_matches.hpp"
+#include "pipeline/prepared_scan.hpp"
+#include "tcm_icp/pipeline/pipeline_result.hpp"
+
+namespace tcm_icp {
+
+/// Covariance of every pose; and the strength of every link, in the order of `pairs`.
+void measure_uncertainty(const std::vector<PreparedScan>& scans, const ScanPairs& pairs, std::size_t reference,
+                         const Resolutions& resolutions, const std::vector<Eigen::Isometry3d>& T_reference_scan,
+                         int num_threads, JointUncertainty& uncertainty, std::vector<LinkRecord>& links);
+
+}  // namespace tcm_icp

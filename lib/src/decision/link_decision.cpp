@@ -1,0 +1,34 @@
+#include "decision/link_decision.hpp"
+
+#include <cmath>
+#include <cstdio>
+
+#include "links/link_likelihood.hpp"
+
+namespace tcm_icp {
+namespace {
+
+constexpr double kAccepted = 0.95, kRejected = 0.5;
+
+std::string percent(double share) {
+  char text[16];
+  std::snprintf(text, sizeof text, "%.0f %%", 100 * share);
+  return text;
+}
+
+}  // namespace
+
+LinkDecision decide_link(const LinkMeasurements& m, const SetReference& set) {
+  LinkDecision out;
+  out.probability = 1 / (1 + std::exp(-pose_log_odds(link_features(m, std::nullopt, set))));
+  out.verdict = out.probability >= kAccepted ? "accepted" : out.probability < kRejected ? "rejected" : "doubtful";
+  out.text = percent(m.evidence.overlap) + " overlap, " + percent(m.evidence.inlier_share) +
+             " of that agrees within the noise; " + percent(m.evidence.left_after_slide[0]) +
+             " of the agreement is left when it slides along its weakest direction";
+  if (m.free_space.tells()) {
+    out.text += "; " + percent(m.free_space.violation_share()) + " is seen through walls";
+  }
+  return out;
+}
+
+}  // namespace tcm_icp

@@ -1,0 +1,187 @@
+#include "tcm_icp/decision/scan_decision.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "tcm_icp/core/error.hpp"
+#include "tcm_icp/core/statistics.hpp"
+
+namespace tcm_icp {
+namespace {
+
+struct ScanModel {
+  double constant;
+  DecisionFeatures weights, usual;  // of right scans
+};
+
+#include "scan_model.inc"
+
+constexpr double kLeastShare = 0.01, kMostLeft = 2, kMostRatio = 10, kMostLead = 20, kLeastLead = -10, kMostLink = 8;
+constexpr double kUsualViolations = 0.004, kUsualOpposed = 0.03;
+constexpr double kContradicting = -3;  // log-odds of a link that should be right if the pose is
+constexpr std::size_t kFewAcross = 30, kFewMatches = 100, kFewAgreeing = 30;
+
+double log_share(double share) { return std::log(std::max(share, kLeastShare)); }
+
+double log_ratio(double a, double b) {
+  return b > 0 ? std::log(std::clamp(a / b, 1 / kMostRatio, kMostRatio)) : 0;
+}
+
+double beyond(std::size_t part, std::size_t all, double usual) {
+  const auto count = static_cast<double>(part);
+  return std::log1p((count - std::min(count, std::sqrt(count))) / static_cast<double>(all) / usual);
+}
+
+double agreeing(const AlignmentEvidence& e) { return e.consensus() * static_cast<double>(e.num_points); }
+
+std::string percent(double share) {
+  char text[16];
+  std::snprintf(text, sizeof text, "%.0f %%", 100 * share);
+  return text;
+}
+
+std::string figure(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", value);
+  return text;
+}
+
+// What features belong to what can be said of a scan.
+Reason reason_of(std::size_t feature) {
+  if (feature <= 1) return Reason::kAmbiguous;
+  if (feature <= 5 || feature >= 13) return Reason::kMisfit;
+  return feature <= 9 ? Reason::kSlides : Reason::kSeenThrough;
+}
+
+std::string describe(Reason reason, const ScanMeasurements& m, const ComponentReference& component) {
+  const AlignmentEvidence& e = m.evidence;
+  switch (reason) {
+    case Reason::kAccepted:
+      return percent(e.consensus()) + " of its points agree with the other scans";
+    case Reason::kAmbiguous:
+      if (!m.other_distance || m.lead >= m.support) return "too little joins it to the other scans";
+      return (m.num_moved > 1 ? "together with " + std::to_string(m.num_moved - 1) + " more " : std::string()) +
+             "it fits about as well " + figure(*m.other_distance) + " away";
+    case Reason::kMisfit:
+      return "only " + percent(e.inlier_share) + " of what overlaps agrees within the noise, where " +
+             percent(component.inlier_share) + " does in the middle of its set";
+    case Reason::kSlides:
+      return "moved along its weakest direction, it still agrees at " + percent(e.left_after_slide[0]) +
+             " of as many points";
+    case Reason::kSeenThrough:
+      return "seen through walls: " + percent(m.free_space.violation_share()) +
+             " of what it and its neighbours share lies before surfaces the other saw, " +
+             percent(m.free_space.opposed_share()) + " was seen from opposite sides";
+    default:
+      return std::string(to_string(reason));
+  }
+}
+
+}  // namespace
+
+ComponentReference ComponentReference::of(const std::vector<ScanMeasurements>& members) {
+  std::vector<double> shares, residuals_m;
+  for (const auto& m : members) {
+    shares.push_back(m.evidence.inlier_share);
+    residuals_m.push_back(m.evidence.median_residual_m);
+  }
+  if (shares.empty()) return {};
+  std::sort(shares.begin(), shares.end());
+  std::sort(residuals_m.begin(), residuals_m.end());
+  return {shares[shares.size() / 2], residuals_m[(residuals_m.size() - 1) / 2]};
+}
+
+DecisionFeatures decision_features(const ScanMeasurements& m, const ComponentReference& component) {
+  const AlignmentEvidence& e = m.evidence;
+  double mean_left = 0;
+  for (const double left : e.left_after_slide) mean_left += std::min(left, kMostLeft) / 6;
+  const bool across = e.num_across >= kFewAcross, space = m.free_space.tells();
+  const double lead = std::clamp(m.lead, kLeastLead, kMostLead);
+  double best = -kMostLink, mean = 0, contradicting = 0;
+  for (const double l : m.link_log_odds) {
+    const double bounded = std::clamp(l, -kMostLink, kMostLink);
+    best = std::max(best, bounded);
+    mean += bounded / static_cast<double>(m.link_log_odds.size());
+    contradicting += (l < kContradicting ? 1 : 0) / static_cast<double>(m.link_log_odds.size());
+  }
+  DecisionFeatures f{};
+  f[0] = lead;
+  f[1] = lead > 0 ? std::log1p(lead) : lead;
+  f[2] = log_share(e.overlap);
+  f[3] = log_share(e.inlier_share);
+  f[4] = log_ratio(std::max(e.inlier_share, kLeastShare), component.inlier_share);
+  f[5] = log_ratio(e.median_residual_m, component.residual_m);
+  f[6] = std::min(e.left_after_slide[0], kMostLeft);
+  f[7] = mean_left;
+  f[8] = across ? std::min(e.left_across, kMostLeft) : 0;
+  f[9] = across ? 0 : 1;
+  f[10] = space ? beyond(m.free_space.num_violating, m.free_space.num_points, kUsualViolations) : 0;
+  f[11] = m.free_space.num_matches >= kFewMatches
+              ? beyond(m.free_space.num_opposed, m.free_space.num_matches, kUsualOpposed)
+              : 0;
+  f[12] = space ? 0 : 1;
+  f[13] = best;
+  f[14] = mean;
+  f[15] = contradicting;
+  f[16] = std::log(std::clamp(agreeing(e), 1.0, 1000.0) / 1000);
+  return f;
+}
+
+std::string_view to_string(Reason reason) {
+  switch (reason) {
+    case Reason::kNotDecided:
+      return "not decided";
+    case Reason::kReference:
+      return "the reference";
+    case Reason::kAccepted:
+      return "accepted";
+    case Reason::kNoLink:
+      return "no link to another scan was found";
+    case Reason::kAmbiguous:
+      return "ambiguous";
+    case Reason::kMisfit:
+      return "misfit";
+    case Reason::kSlides:
+      return "slides";
+    case Reason::kSeenThrough:
+      return "seen through walls";
+    case Reason::kTooFewPoints:
+      return "too few of its points lie on surfaces";
+  }
+  return "unknown";
+}
+
+void DecisionOptions::validate() const {
+  if (!(confidence >= 0 && confidence < 1)) {
+    throw InvalidOptions("confidence must be at least 0 and below 1, not " + std::to_string(confidence));
+  }
+}
+
+Decision decide(const ScanMeasurements& m, const ComponentReference& component, const DecisionOptions& options) {
+  Decision decision;
+  if (agreeing(m.evidence) < static_cast<double>(kFewAgreeing)) {
+    decision.reason = m.evidence.num_points < kFewAgreeing ? Reason::kTooFewPoints : Reason::kMisfit;
+    decision.text = describe(decision.reason, m, component);
+    return decision;
+  }
+  const DecisionFeatures f = decision_features(m, component);
+  double log_odds = kScanModel.constant;
+  std::array<double, 10> taken{};
+  for (std::size_t i = 0; i < f.size(); ++i) {
+    log_odds += kScanModel.weights[i] * f[i];
+    taken[static_cast<std::size_t>(reason_of(i))] += kScanModel.weights[i] * (f[i] - kScanModel.usual[i]);
+  }
+  decision.probability = 1 / (1 + std::exp(-log_odds));
+  if (decision.probability >= options.confidence) {
+    decision.reason = Reason::kAccepted;
+  } else {
+    const auto worst = std::min_element(taken.begin(), taken.end());
+    decision.reason = static_cast<Reason>(worst - taken.begin());
+    if (*worst >= 0) decision.reason = Reason::kAmbiguous;
+  }
+  decision.text = describe(decision.reason, m, component);
+  return decision;
+}
+
+}  // namespace tcm_icp

@@ -1,0 +1,89 @@
+#include "inference/compared_pairs.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tcm_icp {
+namespace {
+
+// Hypotheses whose support would be below log(1 + e^-3) = 0.05 change nothing.
+constexpr double kLeastSupported = -3;
+
+}  // namespace
+
+std::size_t Component::size() const {
+  return static_cast<std::size_t>(
+      std::count_if(T_reference_scan.begin(), T_reference_scan.end(), [](const auto& T) { return T.has_value(); }));
+}
+
+std::vector<std::size_t> Component::members() const {
+  std::vector<std::size_t> out;
+  for (std::size_t i = 0; i < T_reference_scan.size(); ++i) {
+    if (has(i)) out.push_back(i);
+  }
+  return out;
+}
+
+Component component_of_one(std::size_t scan, std::size_t num_scans) {
+  Component out{scan, std::vector<std::optional<Eigen::Isometry3d>>(num_scans)};
+  out.T_reference_scan[scan] = Eigen::Isometry3d::Identity();
+  return out;
+}
+
+PairGraph::PairGraph(std::vector<ComparedPair> pairs, std::vector<PointMoments> moments, double same_m,
+                     const InferenceOptions& options)
+    : pairs_(std::move(pairs)),
+      moments_(std::move(moments)),
+      same_m_(same_m),
+      options_(options),
+      of_scan_(moments_.size()) {
+  for (auto& pair : pairs_) {
+    std::erase_if(pair.hypotheses, [&](const auto& h) { return h.log_odds + options_.log_poses < kLeastSupported; });
+  }
+  std::erase_if(pairs_, [](const auto& pair) { return pair.hypotheses.empty(); });
+  for (std::size_t k = 0; k < pairs_.size(); ++k) {
+    of_scan_[pairs_[k].a].push_back(k);
+    of_scan_[pairs_[k].b].push_back(k);
+  }
+}
+
+double PairGraph::support(const ComparedPair& pair, const Eigen::Isometry3d& T_a, const Eigen::Isometry3d& T_b) const {
+  const Eigen::Isometry3d T_a_b = T_a.inverse() * T_b;
+  double best = 0;
+  for (const PoseHypothesis& h : pair.hypotheses) {
+    if (!same_pose(pair.b, T_a_b, h.T_a_b)) continue;
+    best = std::max(best, std::log1p(std::exp(std::min(h.log_odds, options_.most_log_odds) + options_.log_poses)));
+  }
+  return best;
+}
+
+double PairGraph::support_of(std::size_t scan, const Eigen::Isometry3d& T, const Component& component) const {
+  double sum = -options_.log_poses;
+  for (const std::size_t k : pairs_of(scan)) {
+    const ComparedPair& pair = pairs_[k];
+    const std::size_t other = pair.a == scan ? pair.b : pair.a;
+    if (!component.has(other)) continue;
+    const Eigen::Isometry3d& T_other = *component.T_reference_scan[other];
+    sum += pair.a == scan ? support(pair, T, T_other) : support(pair, T_other, T);
+  }
+  return sum;
+}
+
+std::vector<Eigen::Isometry3d> PairGraph::poses_of(std::size_t scan, const Component& component) const {
+  std::vector<Eigen::Isometry3d> out;
+  for (const std::size_t k : pairs_of(scan)) {
+    const ComparedPair& pair = pairs_[k];
+    const std::size_t other = pair.a == scan ? pair.b : pair.a;
+    if (!component.has(other)) continue;
+    for (const PoseHypothesis& h : pair.hypotheses) {
+      const Eigen::Isometry3d T =
+          *component.T_reference_scan[other] * (pair.a == scan ? h.T_a_b.inverse() : h.T_a_b);
+      const bool known =
+          std::any_of(out.begin(), out.end(), [&](const Eigen::Isometry3d& U) { return same_pose(scan, U, T); });
+      if (!known) out.push_back(T);
+    }
+  }
+  return out;
+}
+
+}  // namespace tcm_icp

@@ -1,0 +1,74 @@
+#pragma once
+// What inference starts from: pairs of scans that were compared, and the poses each of them may have.
+
+#include <Eigen/Geometry>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "tcm_icp/core/rigid_transform.hpp"
+#include "tcm_icp/pipeline/pipeline_options.hpp"
+
+namespace tcm_icp {
+
+/// One pose a pair may have.
+struct PoseHypothesis {
+  Eigen::Isometry3d T_a_b = Eigen::Isometry3d::Identity();
+  double log_odds = 0;  ///< that it is right, by the pair alone
+};
+
+struct ComparedPair {
+  std::size_t a = 0, b = 0;  ///< a < b
+  std::vector<PoseHypothesis> hypotheses;
+};
+
+/// Scans that hold together; poses in the local frame of the reference.
+struct Component {
+  std::size_t reference = 0;
+  std::vector<std::optional<Eigen::Isometry3d>> T_reference_scan;  ///< of every scan of the set; none: not a member
+
+  bool has(std::size_t scan) const { return T_reference_scan[scan].has_value(); }
+  std::size_t size() const;
+  std::vector<std::size_t> members() const;  ///< ascending
+};
+
+/// One scan in its own frame.
+Component component_of_one(std::size_t scan, std::size_t num_scans);
+
+/// The pairs of a set, with what says which of their poses agree.
+class PairGraph {
+ public:
+  /// @param moments  of each scan's points
+  /// @param same_m   [m] > 0; poses of a scan whose rms distance over its points is less are one
+  PairGraph(std::vector<ComparedPair> pairs, std::vector<PointMoments> moments, double same_m,
+            const InferenceOptions& options);
+
+  std::size_t num_scans() const { return moments_.size(); }
+  const std::vector<ComparedPair>& pairs() const { return pairs_; }
+  const std::vector<std::size_t>& pairs_of(std::size_t scan) const { return of_scan_[scan]; }
+  const InferenceOptions& options() const { return options_; }
+
+  bool same_pose(std::size_t scan, const Eigen::Isometry3d& T, const Eigen::Isometry3d& U) const {
+    return rms_displacement(T.inverse() * U, moments_[scan]) < same_m_;
+  }
+
+  /// What a pair says for its scans' poses: the logarithm of how much likelier they are with its hypotheses than if all
+  /// of those were wrong, log(1 + exp(l + log_poses)) of the likeliest that agrees; 0 where none does. >= 0.
+  double support(const ComparedPair& pair, const Eigen::Isometry3d& T_a, const Eigen::Isometry3d& T_b) const;
+
+  /// What the members of `component` say for `scan` at T, less log_poses, which one pose of many has to be worth. A
+  /// single hypothesis of log-odds l above 0 comes to about l; every other that agrees adds log_poses beside its own.
+  double support_of(std::size_t scan, const Eigen::Isometry3d& T, const Component& component) const;
+
+  /// Poses of `scan` that hypotheses of its pairs with members lead to, each once, in the order of the pairs.
+  std::vector<Eigen::Isometry3d> poses_of(std::size_t scan, const Component& component) const;
+
+ private:
+  std::vector<ComparedPair> pairs_;
+  std::vector<PointMoments> moments_;
+  double same_m_;
+  InferenceOptions options_;
+  std::vector<std::vector<std::size_t>> of_scan_;
+};
+
+}  // namespace tcm_icp

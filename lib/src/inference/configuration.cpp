@@ -1,0 +1,206 @@
+#include "inference/configuration.hpp"
+
+#include <algorithm>
+#include <optional>
+
+#include "inference/cuts.hpp"
+
+namespace tcm_icp {
+namespace {
+
+constexpr double kLeastGain = 1e-9;  // rounding is no gain
+
+struct Start {
+  double log_odds;
+  const ComparedPair* pair;
+  const PoseHypothesis* hypothesis;
+};
+
+struct Place {
+  double support = 0;
+  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+};
+
+std::optional<Place> best_place(const PairGraph& graph, std::size_t scan, const Component& component) {
+  std::optional<Place> best;
+  for (const Eigen::Isometry3d& T : graph.poses_of(scan, component)) {
+    const double support = graph.support_of(scan, T, component);
+    if (!best || support > best->support + kLeastGain) best = Place{support, T};
+  }
+  return best;
+}
+
+// Scan by scan, the best supported next.
+void grow(const PairGraph& graph, const std::vector<bool>& open, Component& component) {
+  std::vector<std::optional<Place>> places(graph.num_scans());
+  const auto look_around = [&](std::size_t scan) {
+    for (const std::size_t k : graph.pairs_of(scan)) {
+      const ComparedPair& pair = graph.pairs()[k];
+      const std::size_t other = pair.a == scan ? pair.b : pair.a;
+      if (open[other] && !component.has(other)) places[other] = best_place(graph, other, component);
+    }
+  };
+  for (const std::size_t i : component.members()) look_around(i);
+  while (true) {
+    std::optional<std::size_t> next;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      if (component.has(i) || !places[i] || places[i]->support <= 0) continue;
+      if (!next || places[i]->support > places[*next]->support + kLeastGain) next = i;
+    }
+    if (!next) return;
+    component.T_reference_scan[*next] = places[*next]->T;
+    look_around(*next);
+  }
+}
+
+// Single scans to where the others support them most, or out. True where anything moved.
+bool move_scans(const PairGraph& graph, Component& component) {
+  bool moved = false;
+  for (const std::size_t i : component.members()) {
+    if (i == component.reference) continue;
+    const Eigen::Isometry3d T = *component.T_reference_scan[i];
+    component.T_reference_scan[i].reset();
+    const double here = graph.support_of(i, T, component);
+    const std::optional<Place> best = best_place(graph, i, component);
+    if (best && best->support > std::max(0.0, here) + kLeastGain) {
+      component.T_reference_scan[i] = best->T;
+      moved = true;
+    } else if (here > 0) {
+      component.T_reference_scan[i] = T;
+    } else {
+      moved = true;  // out
+    }
+  }
+  return moved;
+}
+
+bool move_groups(const PairGraph& graph, Component& component) {
+  bool moved = false;
+  for (const Cut& cut : weakest_cuts(graph, component)) {
+    if (cut.moved.size() < 2) continue;
+    // As poses are by now: an earlier cut may have moved some of these.
+    const Cut now = measure_cut(graph, component, cut.moved);
+    if (!now.other_motion || now.other_support <= now.support + kLeastGain) continue;
+    for (const std::size_t i : now.moved) {
+      component.T_reference_scan[i] = *now.other_motion * *component.T_reference_scan[i];
+    }
+    moved = true;
+  }
+  return moved;
+}
+
+// Members that no support joins to the reference any more are out.
+void keep_connected(const PairGraph& graph, Component& component) {
+  std::vector<bool> reached(graph.num_scans(), false);
+  std::vector<std::size_t> open{component.reference};
+  reached[component.reference] = true;
+  while (!open.empty()) {
+    const std::size_t i = open.back();
+    open.pop_back();
+    for (const std::size_t k : graph.pairs_of(i)) {
+      const ComparedPair& pair = graph.pairs()[k];
+      const std::size_t j = pair.a == i ? pair.b : pair.a;
+      if (!component.has(j) || reached[j]) continue;
+      if (graph.support(pair, *component.T_reference_scan[pair.a], *component.T_reference_scan[pair.b]) <= 0) continue;
+      reached[j] = true;
+      open.push_back(j);
+    }
+  }
+  for (const std::size_t i : component.members()) {
+    if (!reached[i]) component.T_reference_scan[i].reset();
+  }
+}
+
+std::size_t best_supported(const PairGraph& graph, const Component& component) {
+  std::size_t best = component.reference;
+  double most = -1e300;
+  for (const std::size_t i : component.members()) {
+    const double support = graph.support_of(i, *component.T_reference_scan[i], component);
+    if (support > most + kLeastGain) most = support, best = i;
+  }
+  return best;
+}
+
+std::vector<Start> strongest(const PairGraph& graph, const std::vector<bool>& open) {
+  std::vector<Start> starts;
+  for (const ComparedPair& pair : graph.pairs()) {
+    if (!open[pair.a] || !open[pair.b]) continue;
+    for (const PoseHypothesis& h : pair.hypotheses) {
+      if (h.log_odds > 0) starts.push_back({h.log_odds, &pair, &h});
+    }
+  }
+  std::stable_sort(starts.begin(), starts.end(), [](const Start& x, const Start& y) { return x.log_odds > y.log_odds; });
+  return starts;
+}
+
+}  // namespace
+
+double log_likelihood(const PairGraph& graph, const Component& component) {
+  double sum = -graph.options().log_poses * static_cast<double>(component.size() - 1);
+  for (const ComparedPair& pair : graph.pairs()) {
+    if (!component.has(pair.a) || !component.has(pair.b)) continue;
+    sum += graph.support(pair, *component.T_reference_scan[pair.a], *component.T_reference_scan[pair.b]);
+  }
+  return sum;
+}
+
+void improve(const PairGraph& graph, Component& component) {
+  const std::vector<bool> all(graph.num_scans(), true);
+  for (int sweep = 0; sweep < graph.options().max_sweeps; ++sweep) {
+    bool moved = move_scans(graph, component);
+    moved = move_groups(graph, component) || moved;
+    keep_connected(graph, component);
+    if (!moved) return;
+  }
+}
+
+void change_reference(Component& component, std::size_t reference) {
+  const Eigen::Isometry3d T_new_old = component.T_reference_scan[reference]->inverse();
+  for (auto& T : component.T_reference_scan) {
+    if (T) T = T_new_old * *T;
+  }
+  component.T_reference_scan[reference] = Eigen::Isometry3d::Identity();
+  component.reference = reference;
+}
+
+std::vector<Component> likeliest_components(const PairGraph& graph) {
+  const std::size_t n = graph.num_scans();
+  std::vector<Component> out;
+  std::vector<bool> open(n, true);
+  while (true) {
+    std::optional<Component> best;
+    double most = 0;
+    std::vector<Component> tried;
+    for (const Start& start : strongest(graph, open)) {
+      if (tried.size() == static_cast<std::size_t>(graph.options().max_starts)) break;
+      // A start that an earlier configuration contains leads to the same one.
+      const bool contained = std::any_of(tried.begin(), tried.end(), [&](const Component& c) {
+        return c.has(start.pair->a) && c.has(start.pair->b) &&
+               graph.same_pose(start.pair->b,
+                               c.T_reference_scan[start.pair->a]->inverse() * *c.T_reference_scan[start.pair->b],
+                               start.hypothesis->T_a_b);
+      });
+      if (contained) continue;
+      Component component = component_of_one(start.pair->a, n);
+      component.T_reference_scan[start.pair->b] = start.hypothesis->T_a_b;
+      grow(graph, open, component);
+      for (int round = 0; round < graph.options().max_sweeps; ++round) {
+        const std::size_t before = component.size();
+        improve(graph, component);
+        grow(graph, open, component);
+        if (component.size() <= before) break;
+      }
+      const double likelihood = log_likelihood(graph, component);
+      if (likelihood > most + kLeastGain) most = likelihood, best = component;
+      tried.push_back(std::move(component));
+    }
+    if (!best || best->size() < 2) break;
+    change_reference(*best, best_supported(graph, *best));
+    for (const std::size_t i : best->members()) open[i] = false;
+    out.push_back(std::move(*best));
+  }
+  std::stable_sort(out.begin(), out.end(), [](const Component& a, const Component& b) { return a.size() > b.size(); });
+  return out;
+}
+
+}  // namespace tcm_icp

@@ -1,0 +1,28 @@
+#pragma once
+// The poses that most hypotheses of a set agree on.
+
+#include <vector>
+
+#include "inference/compared_pairs.hpp"
+
+namespace tcm_icp {
+
+/// Sum of the support of all pairs of members, less log_poses for every member but one: the logarithm of how much
+/// likelier the hypotheses are with these poses than if all of them were wrong.
+double log_likelihood(const PairGraph& graph, const Component& component);
+
+/// Components of the set, the largest first, each the likeliest poses found among the scans that are left: grown scan by
+/// scan from the strongest hypotheses, then improved by moves of single scans and of groups to other poses that
+/// hypotheses lead to, as long as the likelihood grows. A scan that more speaks against than for is in none. The
+/// reference is the member with the most support.
+/// Cost: about max_starts times scans, pairs of a scan, and poses of a scan squared.
+std::vector<Component> likeliest_components(const PairGraph& graph);
+
+/// The component with its poses moved as `cuts` allow, as long as the likelihood grows. For tests, and after new
+/// hypotheses.
+void improve(const PairGraph& graph, Component& component);
+
+/// The same poses in the frame of another member.
+void change_reference(Component& component, std::size_t reference);
+
+}  // namespace tcm_icp

@@ -1,0 +1,33 @@
+#pragma once
+// What holds a part of a component to the rest, and where else it could hang.
+
+#include <Eigen/Geometry>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "inference/compared_pairs.hpp"
+
+namespace tcm_icp {
+
+/// A part of a component that moves as one against the rest, and the evidence across.
+struct Cut {
+  std::vector<std::size_t> moved;  ///< ascending; without the reference
+  double support = 0;              ///< of the pairs across at the poses as they are, less log_poses
+  double other_support = 0;        ///< of the best clearly different motion of the part
+  /// That motion in the reference's frame: T_new = motion * T_old. None where no hypothesis leads elsewhere.
+  std::optional<Eigen::Isometry3d> other_motion;
+
+  /// Log-odds of the poses against the best other place, or against none at all.
+  double lead() const { return support - (other_support > 0 ? other_support : 0); }
+};
+
+/// The cut between `moved` and the other members.
+Cut measure_cut(const PairGraph& graph, const Component& component, std::vector<std::size_t> moved);
+
+/// The parts that the edges of a maximum spanning tree over the pairs' support hold, and every member by itself, each
+/// once. The weakest hold between any two groups of scans is among them. Cost: for each cut the pairs across times the
+/// poses they lead to.
+std::vector<Cut> weakest_cuts(const PairGraph& graph, const Component& component);
+
+}  // namespace tcm_icp

@@ -1,0 +1,105 @@
+#include "links/hypotheses.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+
+#include "links/link_likelihood.hpp"
+
+namespace tcm_icp {
+namespace {
+
+// Consensus of the best clearly different pose of the pair by this one's. Poses are looked at by the same points, so
+// that this tells them apart better than where they came from.
+double second_best_ratio(const LinkHypothesis& h, const std::vector<LinkHypothesis>& all, const PointMoments& moments_b,
+                         double same_m) {
+  const double own = h.measurements.evidence.consensus();
+  double best = 0;
+  for (const LinkHypothesis& other : all) {
+    if (rms_displacement(h.T_a_b.inverse() * other.T_a_b, moments_b) < same_m) continue;
+    best = std::max(best, other.measurements.evidence.consensus());
+  }
+  return own > 0 ? best / own : best > 0 ? std::numeric_limits<double>::infinity() : 0;
+}
+
+}  // namespace
+
+HypothesisSet::HypothesisSet(double voxel_m, double noise_m, std::vector<PointMoments> moments)
+    : voxel_m_(voxel_m), noise_m_(noise_m), moments_(std::move(moments)) {
+  reference_ = SetReference::of(voxel_m_, noise_m_, {});
+}
+
+void HypothesisSet::add(std::size_t a, std::size_t b, const std::vector<LinkHypothesis>& hypotheses) {
+  std::vector<LinkHypothesis>& known = pairs_[{a, b}];
+  for (const LinkHypothesis& h : hypotheses) {
+    // Half the distance at which poses are one to inference: fits to one optimum end nearer than that.
+    const bool is_known = std::any_of(known.begin(), known.end(), [&](const LinkHypothesis& k) {
+      return rms_displacement(k.T_a_b.inverse() * h.T_a_b, moments_[b]) < same_m() / 2;
+    });
+    if (!is_known) known.push_back(h);
+  }
+}
+
+void HypothesisSet::score() {
+  std::vector<LinkMeasurements> all;
+  for (const auto& [pair, hypotheses] : pairs_) {
+    for (const auto& h : hypotheses) all.push_back(h.measurements);
+  }
+  reference_ = SetReference::of(voxel_m_, noise_m_, all);
+  for (auto& [pair, hypotheses] : pairs_) {
+    for (auto& h : hypotheses) {
+      h.second_best_ratio = second_best_ratio(h, hypotheses, moments_[pair.second], same_m());
+      h.log_odds = hypothesis_log_odds(
+          link_features(h.measurements,
+                        SearchMeasurements{h.candidate.method, h.candidate.margin, h.second_best_ratio}, reference_));
+    }
+    std::stable_sort(hypotheses.begin(), hypotheses.end(),
+                     [](const LinkHypothesis& x, const LinkHypothesis& y) { return x.log_odds > y.log_odds; });
+  }
+}
+
+double HypothesisSet::log_odds(std::size_t a, std::size_t b) const {
+  const auto pair = pairs_.find({std::min(a, b), std::max(a, b)});
+  if (pair == pairs_.end() || pair->second.empty()) return -std::numeric_limits<double>::infinity();
+  return pair->second.front().log_odds;
+}
+
+PairGraph HypothesisSet::graph(const std::vector<bool>& open, const InferenceOptions& options) const {
+  std::vector<ComparedPair> pairs;
+  for (const auto& [pair, hypotheses] : pairs_) {
+    if (!open[pair.first] || !open[pair.second]) continue;
+    ComparedPair compared{pair.first, pair.second, {}};
+    for (const auto& h : hypotheses) compared.hypotheses.push_back({h.T_a_b, h.log_odds});
+    pairs.push_back(std::move(compared));
+  }
+  return {std::move(pairs), moments_, same_m(), options};
+}
+
+std::vector<std::pair<std::size_t, std::size_t>> HypothesisSet::without_contradicted(
+    std::vector<std::pair<std::size_t, std::size_t>> pairs,
+    const std::vector<Eigen::Isometry3d>& T_reference_scan) const {
+  const auto stays = [&](const std::pair<std::size_t, std::size_t>& pair) {
+    const auto compared = pairs_.find(pair);
+    if (compared == pairs_.end()) return true;
+    const Eigen::Isometry3d T_a_b = T_reference_scan[pair.first].inverse() * T_reference_scan[pair.second];
+    return std::any_of(compared->second.begin(), compared->second.end(), [&](const LinkHypothesis& h) {
+      return rms_displacement(T_a_b.inverse() * h.T_a_b, moments_[pair.second]) < same_m();
+    });
+  };
+  std::vector<std::size_t> group(moments_.size());
+  std::iota(group.begin(), group.end(), std::size_t{0});
+  const auto find = [&](std::size_t i) {
+    while (group[i] != i) i = group[i] = group[group[i]];
+    return i;
+  };
+  std::vector<bool> kept;
+  for (const auto& pair : pairs) {
+    kept.push_back(stays(pair));
+    if (kept.back()) group[find(pair.first)] = find(pair.second);
+  }
+  std::size_t k = 0;
+  std::erase_if(pairs, [&](const auto& pair) { return !kept[k++] && find(pair.first) == find(pair.second); });
+  return pairs;
+}
+
+}  // namespace tcm_icp

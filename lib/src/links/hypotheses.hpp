@@ -1,0 +1,68 @@
+#pragma once
+// The poses that pairs of scans may have, with what speaks for each.
+
+#include <Eigen/Geometry>
+#include <cstddef>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "inference/compared_pairs.hpp"
+#include "tcm_icp/coarse/pose_candidate.hpp"
+#include "tcm_icp/core/rigid_transform.hpp"
+#include "tcm_icp/links/link_measurements.hpp"
+
+namespace tcm_icp {
+
+/// Poses whose rms distance over a scan is less, in coarse voxels, are one to the links: a fit leads from either to the
+/// same.
+constexpr double kSameLinkPose = 4;
+
+/// A pose that a pair may have, after a fit.
+struct LinkHypothesis {
+  Eigen::Isometry3d T_a_b = Eigen::Isometry3d::Identity();  ///< local frames
+  PoseCandidate candidate;                                  ///< what the fit started from
+  LinkMeasurements measurements;
+  double second_best_ratio = 0;  ///< SearchMeasurements::second_best_ratio
+  double log_odds = 0;           ///< that it is right, by the pair and what its set usually shows
+};
+
+/// All hypotheses of a set, by pairs (a < b).
+class HypothesisSet {
+ public:
+  /// @param moments  of each scan's points
+  HypothesisSet(double voxel_m, double noise_m, std::vector<PointMoments> moments);
+
+  /// A pair that was compared, with or without a hypothesis. A pose it has already is left as it is.
+  void add(std::size_t a, std::size_t b, const std::vector<LinkHypothesis>& hypotheses);
+
+  /// Log-odds of all hypotheses anew: they are relative to one another. The likeliest of a pair comes first.
+  void score();
+
+  const std::map<std::pair<std::size_t, std::size_t>, std::vector<LinkHypothesis>>& pairs() const { return pairs_; }
+  const SetReference& reference() const { return reference_; }
+  const std::vector<PointMoments>& moments() const { return moments_; }
+  double same_m() const { return kSameLinkPose * voxel_m_; }
+
+  /// Of the likeliest hypothesis; minus infinity where there is none.
+  double log_odds(std::size_t a, std::size_t b) const;
+
+  /// The pairs of the scans with `open`.
+  PairGraph graph(const std::vector<bool>& open, const InferenceOptions& options) const;
+
+  /// Without pairs that were compared and of which no hypothesis leads to their pose, as long as other pairs connect
+  /// both scans. Such a pair shares little, and what its surfaces lie next to may be a wall's other face: a scan of the
+  /// simulated interiors was drawn off by 0.1 m. Pairs that were not compared stay.
+  /// @param T_reference_scan  of every scan that a pair names
+  std::vector<std::pair<std::size_t, std::size_t>> without_contradicted(
+      std::vector<std::pair<std::size_t, std::size_t>> pairs,
+      const std::vector<Eigen::Isometry3d>& T_reference_scan) const;
+
+ private:
+  double voxel_m_, noise_m_;
+  std::vector<PointMoments> moments_;
+  std::map<std::pair<std::size_t, std::size_t>, std::vector<LinkHypothesis>> pairs_;
+  SetReference reference_;
+};
+
+}  // namespace tcm_icp

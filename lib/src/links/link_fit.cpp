@@ -1,0 +1,76 @@
+#include "links/link_fit.hpp"
+
+#include <algorithm>
+
+#include "links/measure_link.hpp"
+#include "pipeline/scan_sight.hpp"
+#include "tcm_icp/core/even_sample.hpp"
+#include "tcm_icp/registration/alignment_objective.hpp"
+#include "tcm_icp/registration/lp_registration.hpp"
+
+namespace tcm_icp {
+namespace {
+
+// A pair is looked at by few points: its fit is taken up again when the scan is merged.
+constexpr std::size_t kFitPoints = 500, kScreenPoints = 250;
+constexpr int kMaxLpSolves = 20;  // a fit of a right pose takes ten; others go round in circles
+// Maximum correspondence distances, in coarse voxels.
+constexpr double kFirstDistance = 8, kLastDistance = 2, kDistanceShrink = 0.6;
+
+// Free space tells before a fit: right poses of real scenes, off by up to four coarse voxels, came to 0.04 of
+// violations and less, those whose fits were wrong to 0.08 and more. A slide is right but for two voxels or so, or
+// wrong.
+constexpr double kHopelessViolations = 0.12, kHopelessOfSlide = 0.04;
+
+bool hopeless(const PreparedScan& target, const PreparedScan& source, const PoseCandidate& candidate) {
+  const FreeSpaceEvidence evidence = free_space(target, source, candidate.T_target_source);
+  const double most = candidate.method == CoarseMethod::kSlide ? kHopelessOfSlide : kHopelessViolations;
+  return evidence.tells() && evidence.violation_share() > most;
+}
+
+}  // namespace
+
+std::vector<PoseCandidate> in_order_of_promise(const PreparedScan& target, const PreparedScan& source,
+                                               const std::vector<PoseCandidate>& candidates) {
+  // Points alone would not do: in a forest something is near everywhere.
+  const Cloud sample = even_sample(source.coarse_sample, kScreenPoints);
+  const double voxel_m = target.pyramid.level(0).voxel_size_m;
+  const AlignmentObjective objective(sample, target.pyramid.level_for(4 * voxel_m), 2 * voxel_m,
+                                     kFirstDistance * voxel_m);
+  struct Rank {
+    bool not_best;
+    double cost;
+    std::size_t index;
+    auto operator<=>(const Rank&) const = default;
+  };
+  std::vector<Rank> ranks;
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    const bool best = std::none_of(candidates.begin(), candidates.end(), [&](const PoseCandidate& c) {
+      return c.method == candidates[i].method && c.score > candidates[i].score;
+    });
+    ranks.push_back({!best, objective.cost(candidates[i].T_target_source), i});
+  }
+  std::sort(ranks.begin(), ranks.end());
+  std::vector<PoseCandidate> out;
+  for (const Rank& rank : ranks) out.push_back(candidates[rank.index]);
+  return out;
+}
+
+std::optional<LinkHypothesis> fit_candidate(const PreparedScan& target, const PreparedScan& source,
+                                            const PoseCandidate& candidate, const PipelineOptions& options) {
+  if (hopeless(target, source, candidate)) return std::nullopt;
+  const double voxel_m = target.pyramid.level(0).voxel_size_m;
+  LpRegistrationOptions lp;
+  lp.formulation = options.placement.formulation;
+  lp.lp = options.lp;
+  lp.initial_gate_m = kFirstDistance * voxel_m;
+  lp.final_gate_m = kLastDistance * voxel_m;
+  lp.gate_shrink = kDistanceShrink;
+  lp.max_iterations = kMaxLpSolves;
+  const RegistrationResult fit =
+      register_lp(even_sample(source.coarse_sample, kFitPoints), target.pyramid, candidate.T_target_source, lp);
+  if (!fit.usable()) return std::nullopt;
+  return LinkHypothesis{fit.T_target_source, candidate, measure_link(target, source, fit.T_target_source)};
+}
+
+}  // namespace tcm_icp

@@ -1,0 +1,279 @@
+#include "links/pair_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <optional>
+
+#include "links/link_fit.hpp"
+#include "tcm_icp/coarse/feature_alignment.hpp"
+#include "tcm_icp/coarse/height_correlation.hpp"
+#include "tcm_icp/coarse/slide_search.hpp"
+#include "tcm_icp/core/parallel.hpp"
+#include "tcm_icp/graph/correspondence_measure.hpp"
+
+namespace tcm_icp {
+namespace {
+
+// Height maps first: they are cheap and cover a whole set at once. Local features are asked where those left scans
+// alone, and then slides, which need poses to start from.
+
+// A scan overlaps few others much. Where there are more, all pairs are ranked at little cost first.
+constexpr std::size_t kFirstPartners = 10;
+constexpr std::size_t kSlidesOfPose = 8;  // from one pose
+// Of a pair and method, beside those that free space vetoes; a clear hypothesis ends them.
+constexpr int kMaxFits = 3;
+constexpr double kClearLogOdds = 5;
+constexpr double kGuessedOverlap = 0.2;  // within eight voxels, of pairs that are fitted from their initial poses
+
+// Each of the two may be off the vertical.
+bool tilts(const Eigen::Isometry3d& T) { return T.linear()(2, 2) < std::cos(2 * kMaxLevelTilt_deg * EIGEN_PI / 180); }
+
+Cloud surfaces(const PreparedScan& scan, NormalSides sides) {
+  const Cloud& cloud = scan.pyramid.level(0).cloud;
+  return sides == NormalSides::kSeen ? Cloud{cloud.points, scan.sight.facing} : cloud;
+}
+
+enum class Tried : char { kNothing, kHeightMaps, kFeatures, kSlides };
+
+}  // namespace
+
+struct PairSearch::Impl {
+  Impl(const std::vector<PreparedScan>& all, const PipelineOptions& o, const RunContext& c)
+      : scans(all), options(o), context(c), tried(all.size() * all.size(), Tried::kNothing) {}
+
+  const std::vector<PreparedScan>& scans;
+  const PipelineOptions& options;
+  const RunContext& context;
+  std::vector<Tried> tried;  // by pair, a * n + b
+  std::vector<std::vector<std::size_t>> partners;
+  std::vector<std::size_t> reach;  // how many of them were asked for, of each scan
+  FeatureAlignmentOptions features;
+  std::vector<DescribedScan> described;                                                  // once they are asked for
+  std::map<std::pair<std::size_t, std::size_t>, std::vector<Eigen::Isometry3d>> fitted;  // target and source
+
+  Tried& state(std::size_t a, std::size_t b) { return tried[std::min(a, b) * scans.size() + std::max(a, b)]; }
+
+  /// Pairs of the state wanted, of each wanted scan with its likeliest partners.
+  ScanPairs pairs(Tried state_wanted, const std::vector<bool>& wanted) {
+    std::vector<bool> chosen(scans.size() * scans.size(), false);
+    for (std::size_t i = 0; i < scans.size(); ++i) {
+      if (!wanted[i]) continue;
+      for (std::size_t k = 0; k < std::min(reach[i], partners[i].size()); ++k) {
+        const std::size_t j = partners[i][k];
+        chosen[std::min(i, j) * scans.size() + std::max(i, j)] = true;
+      }
+    }
+    ScanPairs out;
+    for (std::size_t a = 0; a < scans.size(); ++a) {
+      for (std::size_t b = a + 1; b < scans.size(); ++b) {
+        if (chosen[a * scans.size() + b] && state(a, b) == state_wanted) out.emplace_back(a, b);
+      }
+    }
+    return out;
+  }
+
+  /// Of each scan all others, the likeliest to overlap first.
+  void rank_partners() {
+    const std::size_t n = scans.size();
+    if (!partners.empty()) return;
+    partners.resize(n);
+    reach.assign(n, kFirstPartners);
+    std::vector<double> score(n * n, 0.0);
+    if (n > kFirstPartners + 1) {
+      context.report("ranking pairs", 0, n * (n - 1) / 2);
+      std::vector<const Cloud*> clouds;
+      for (const auto& s : scans) clouds.push_back(&s.fine.cloud);
+      std::vector<ScanPair> all;
+      for (std::size_t a = 0; a < n; ++a) {
+        for (std::size_t b = a + 1; b < n; ++b) {
+          all.push_back({a, b});
+        }
+      }
+      HeightCorrelationOptions screening = screening_options();
+      screening.vertical.levelled = options.level;
+      const auto scores = screen_by_height_maps(clouds, all, screening, context.num_threads);
+      for (std::size_t k = 0; k < all.size(); ++k) {
+        score[all[k].target * n + all[k].source] = score[all[k].source * n + all[k].target] = scores[k];
+      }
+    }
+    for (std::size_t i = 0; i < n; ++i) {
+      for (std::size_t j = 0; j < n; ++j) {
+        if (j != i) partners[i].push_back(j);
+      }
+      std::stable_sort(partners[i].begin(), partners[i].end(), [&](std::size_t x, std::size_t y) {
+        const double a = score[i * n + x], b = score[i * n + y];
+        return a != b ? a > b : x < y;
+      });
+    }
+  }
+
+  /// Twice as many partners for the wanted scans; false where they had all.
+  bool reach_further(const std::vector<bool>& wanted) {
+    bool more = false;
+    for (std::size_t i = 0; i < scans.size(); ++i) {
+      if (!wanted[i] || reach[i] >= partners[i].size()) continue;
+      reach[i] *= 2;
+      more = true;
+    }
+    return more;
+  }
+
+  std::vector<std::vector<PoseCandidate>> by_height_maps(const ScanPairs& pairs) const {
+    constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+    std::vector<const Cloud*> clouds;  // of the scans that are in a pair
+    std::vector<std::size_t> place(scans.size(), kNone);
+    std::vector<ScanPair> wanted;
+    for (const auto& [a, b] : pairs) {
+      for (const std::size_t i : {a, b}) {
+        if (place[i] != kNone) continue;
+        place[i] = clouds.size();
+        clouds.push_back(&scans[i].fine.cloud);
+      }
+      wanted.push_back({place[a], place[b]});
+    }
+    HeightCorrelationOptions correlation;
+    correlation.vertical.levelled = options.level;
+    return correlate_height_maps(clouds, wanted, correlation, context.num_threads);
+  }
+
+  void describe() {
+    if (!described.empty()) return;
+    described.resize(scans.size());
+    parallel_for(context.num_threads, scans.size(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        Rng rng = make_stream(context.seed, "features", std::to_string(scans[i].share));
+        described[i] = describe_scan(scans[i].pyramid, features, rng);
+      }
+    });
+  }
+
+  std::vector<std::vector<PoseCandidate>> by_features(const ScanPairs& pairs) {
+    describe();
+    std::vector<std::vector<PoseCandidate>> out(pairs.size());
+    parallel_for(context.num_threads, pairs.size(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t k = begin; k < end; ++k) {
+        const auto [a, b] = pairs[k];
+        out[k] = align_by_features({scans[a].pyramid, described[a]}, {scans[b].pyramid, described[b]}, features);
+        if (options.level) std::erase_if(out[k], [](const PoseCandidate& c) { return tilts(c.T_target_source); });
+      }
+    });
+    return out;
+  }
+
+  /// From all poses that the pair was fitted to: where one is right but for a slide, it is most often one that free
+  /// space vetoes.
+  std::vector<std::vector<PoseCandidate>> by_slides(const ScanPairs& pairs) const {
+    std::vector<std::vector<PoseCandidate>> out(pairs.size());
+    parallel_for(context.num_threads, pairs.size(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t k = begin; k < end; ++k) {
+        const auto [a, b] = pairs[k];
+        const auto known = fitted.find(pairs[k]);
+        if (known == fitted.end()) continue;
+        const bool seen = scans[a].sight.knows_sides() && scans[b].sight.knows_sides();
+        const NormalSides sides = seen ? NormalSides::kSeen : NormalSides::kUnknown;
+        const Cloud target = surfaces(scans[a], sides), source = surfaces(scans[b], sides);
+        const double voxel_m = scans[a].pyramid.level(0).voxel_size_m;
+        for (const Eigen::Isometry3d& T : known->second) {
+          const auto slid = slide_candidates(target, source, T, voxel_m, sides, kSlidesOfPose);
+          out[k].insert(out[k].end(), slid.begin(), slid.end());
+        }
+      }
+    });
+    return out;
+  }
+
+  /// The most promising candidate of every pair, then the next of pairs that have no clear hypothesis yet: what the set
+  /// shows by then tells which have one.
+  void fit(const ScanPairs& pairs, const std::vector<std::vector<PoseCandidate>>& candidates, HypothesisSet& set) {
+    std::vector<std::vector<PoseCandidate>> queues(pairs.size());
+    parallel_for(context.num_threads, pairs.size(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t k = begin; k < end; ++k) {
+        queues[k] = in_order_of_promise(scans[pairs[k].first], scans[pairs[k].second], candidates[k]);
+        std::reverse(queues[k].begin(), queues[k].end());
+      }
+    });
+    for (const auto& [a, b] : pairs) set.add(a, b, {});
+    std::vector<std::size_t> open(pairs.size());
+    std::iota(open.begin(), open.end(), std::size_t{0});
+    std::vector<int> num_fits(pairs.size(), 0);
+    while (!open.empty()) {
+      std::vector<std::optional<LinkHypothesis>> found(open.size());
+      parallel_for(context.num_threads, open.size(), [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+          const auto [a, b] = pairs[open[i]];
+          std::vector<PoseCandidate>& queue = queues[open[i]];
+          while (!queue.empty() && !found[i]) {
+            found[i] = fit_candidate(scans[a], scans[b], queue.back(), options);
+            queue.pop_back();
+          }
+        }
+      });
+      for (std::size_t i = 0; i < open.size(); ++i) {
+        if (!found[i]) continue;
+        const auto [a, b] = pairs[open[i]];
+        fitted[{a, b}].push_back(found[i]->T_a_b);
+        if (!found[i]->measurements.free_space.vetoes()) ++num_fits[open[i]];
+        set.add(a, b, {*found[i]});
+      }
+      set.score();
+      std::erase_if(open, [&](std::size_t k) {
+        return queues[k].empty() || num_fits[k] == kMaxFits ||
+               set.log_odds(pairs[k].first, pairs[k].second) >= kClearLogOdds;
+      });
+    }
+  }
+};
+
+PairSearch::PairSearch(const std::vector<PreparedScan>& scans, const PipelineOptions& options,
+                       const RunContext& context)
+    : impl_(new Impl(scans, options, context)) {}
+PairSearch::~PairSearch() = default;
+
+void PairSearch::try_guesses(const std::vector<std::optional<Eigen::Isometry3d>>& T_common_scan, HypothesisSet& set) {
+  const std::size_t n = impl_->scans.size();
+  ScanPairs pairs;
+  std::vector<std::vector<PoseCandidate>> candidates;
+  for (std::size_t a = 0; a < n; ++a) {
+    for (std::size_t b = a + 1; b < n; ++b) {
+      if (!T_common_scan[a] || !T_common_scan[b]) continue;
+      const Eigen::Isometry3d T_a_b = T_common_scan[a]->inverse() * *T_common_scan[b];
+      const PyramidLevel &x = impl_->scans[a].pyramid.level(2), &y = impl_->scans[b].pyramid.level(2);
+      if (overlap({x.cloud.points, x.index}, {y.cloud.points, y.index}, T_a_b, 2 * x.voxel_size_m) < kGuessedOverlap) {
+        continue;
+      }
+      pairs.emplace_back(a, b);
+      candidates.push_back({PoseCandidate{T_a_b, CoarseMethod::kGuess, 1, 1}});
+    }
+  }
+  if (!pairs.empty()) impl_->fit(pairs, candidates, set);
+}
+
+bool PairSearch::extend(const std::vector<bool>& wanted, HypothesisSet& set) {
+  impl_->rank_partners();
+  do {
+    if (const ScanPairs pairs = impl_->pairs(Tried::kNothing, wanted); !pairs.empty()) {
+      impl_->context.report("comparing height maps", 0, pairs.size());
+      impl_->fit(pairs, impl_->by_height_maps(pairs), set);
+      for (const auto& [a, b] : pairs) impl_->state(a, b) = Tried::kHeightMaps;
+      return true;
+    }
+    if (const ScanPairs pairs = impl_->pairs(Tried::kHeightMaps, wanted); !pairs.empty()) {
+      impl_->context.report("comparing features", 0, pairs.size());
+      impl_->fit(pairs, impl_->by_features(pairs), set);
+      for (const auto& [a, b] : pairs) impl_->state(a, b) = Tried::kFeatures;
+      return true;
+    }
+    if (const ScanPairs pairs = impl_->pairs(Tried::kFeatures, wanted); !pairs.empty()) {
+      impl_->context.report("comparing along corridors", 0, pairs.size());
+      impl_->fit(pairs, impl_->by_slides(pairs), set);
+      for (const auto& [a, b] : pairs) impl_->state(a, b) = Tried::kSlides;
+      return true;
+    }
+  } while (impl_->reach_further(wanted));
+  return false;
+}
+
+}  // namespace tcm_icp

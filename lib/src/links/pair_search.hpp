@@ -1,0 +1,37 @@
+#pragma once
+// Which pairs of scans to try for links, and in which order; the coarse aligners behind it.
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "links/hypotheses.hpp"
+#include "pipeline/prepared_scan.hpp"
+#include "tcm_icp/core/run_context.hpp"
+#include "tcm_icp/pipeline/pipeline_options.hpp"
+
+namespace tcm_icp {
+
+class PairSearch {
+ public:
+  /// Keeps references: all three must outlive the search.
+  PairSearch(const std::vector<PreparedScan>& scans, const PipelineOptions& options, const RunContext& context);
+  ~PairSearch();
+
+  /// Fits the pairs of scans with initial poses from those, where they overlap there.
+  void try_guesses(const std::vector<std::optional<Eigen::Isometry3d>>& T_common_scan, HypothesisSet& set);
+
+  /// Tries the pairs of `wanted` scans with any other by the next method that they were not tried by: height maps,
+  /// features, slides of the poses that those fitted to (slide_search.hpp). Links go to the graph. False where no pair
+  /// was left. Each scan is tried with the ten others it most likely overlaps with, by coarse height maps; once they
+  /// were tried by all methods, wanted scans are tried with twice as many. Cost: some 50 ms of processor time a pair
+  /// and method, 1 ms to rank a pair.
+  bool extend(const std::vector<bool>& wanted, HypothesisSet& set);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace tcm_icp

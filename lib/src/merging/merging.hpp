@@ -1,0 +1,22 @@
+#pragma once
+// Lines 4 to 9 of Algorithm 1 over inferred poses: S grows scan by scan in the order of the TCM.
+
+#include <vector>
+
+#include "inference/compared_pairs.hpp"
+#include "pipeline/prepared_scan.hpp"
+#include "tcm_icp/core/run_context.hpp"
+#include "tcm_icp/pipeline/pipeline_options.hpp"
+#include "tcm_icp/pipeline/pipeline_result.hpp"
+
+namespace tcm_icp {
+
+/// Merges the members of a component, those first that hypotheses join to what is merged. Each is fitted to S by linear
+/// programs from its inferred pose, and refined as the options ask for; a fit that leaves that pose is not taken, since
+/// inference has looked at more than S. Poses of `component` follow the fits.
+/// @return  a record for each member but the reference, in the order of merging
+std::vector<MergeRecord> merge_in_tcm_order(const std::vector<PreparedScan>& scans, const PairGraph& graph,
+                                            const PipelineOptions& options, const RunContext& context,
+                                            Component& component);
+
+}  // namespace tcm_icp

@@ -1,0 +1,262 @@
+// The default: compared without a guess, inferred, merged in the order of the TCM, adjusted, decided.
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+
+#include "inference/configuration.hpp"
+#include "inference/cuts.hpp"
+#include "links/pair_search.hpp"
+#include "merging/merging.hpp"
+#include "pipeline/pipeline_input.hpp"
+#include "pipeline/scan_set.hpp"
+#include "pipeline/scan_sight.hpp"
+#include "pipeline/settled_component.hpp"
+#include "tcm_icp/core/rigid_transform.hpp"
+#include "tcm_icp/core/statistics.hpp"
+
+namespace tcm_icp {
+namespace {
+
+// Scans whose place has a lead below are looked at by more searches, as long as there are any.
+constexpr double kLeadToRest = 6;
+
+class RobustPipeline {
+ public:
+  RobustPipeline(const PipelineInput& input, PipelineResult& result) : in_(input), result_(result) {}
+
+  void run() {
+    prepare();
+    compare_pairs();
+    build_components();
+    choose_main_component();
+    report_poses();
+    report_hypotheses();
+  }
+
+ private:
+  std::size_t size() const { return in_.sampled.size(); }
+
+  void prepare() {
+    in_.clock.begin("prepare");
+    resolutions_ = choose_resolutions(in_.sampled, in_.options.sampling, in_.context.num_threads);
+    result_.coarse_voxel_m = resolutions_.coarse_m;
+    result_.fine_voxel_m = resolutions_.fine_m;
+    T_init_ = initial_local_poses(in_.initial_poses, in_.sampled, false);
+    result_.viewpoints = find_viewpoints(in_.sampled, in_.context);
+    scans_ = prepare_scans(in_.sampled, resolutions_, in_.options.placement, in_.context);
+    make_sights(result_.viewpoints, in_.context, scans_);
+    for (std::size_t i = 0; i < size(); ++i) {
+      if (!result_.viewpoints[i]) continue;
+      result_.viewpoints[i]->place += in_.sampled[i].scan.origin;
+      for (auto& p : result_.viewpoints[i]->alternatives) p += in_.sampled[i].scan.origin;
+    }
+  }
+
+  // Poses that pairs may have; more are looked for as long as inference leaves a scan without a clear place.
+  void compare_pairs() {
+    in_.clock.begin("link");
+    std::vector<PointMoments> moments;
+    std::vector<double> noise_m;
+    for (std::size_t i = 0; i < size(); ++i) {
+      moments.push_back(scans_[i].moments);
+      noise_m.push_back(in_.sampled[i].scan.noise_m);
+    }
+    hypotheses_.emplace(resolutions_.coarse_m, median(noise_m), std::move(moments));
+    PairSearch search(scans_, in_.options, in_.context);
+    search.try_guesses(T_init_, *hypotheses_);
+    std::vector<bool> wanted(size(), true);
+    while (search.extend(wanted, *hypotheses_)) {
+      wanted = without_clear_place();
+      if (std::count(wanted.begin(), wanted.end(), true) == 0) break;
+    }
+  }
+
+  std::vector<bool> without_clear_place() const {
+    const PairGraph graph = hypotheses_->graph(std::vector<bool>(size(), true), in_.options.inference);
+    const std::vector<Component> components = likeliest_components(graph);
+    std::vector<bool> out(size(), true);
+    if (components.empty()) return out;
+    for (const std::size_t i : components.front().members()) out[i] = false;
+    for (const Cut& cut : weakest_cuts(graph, components.front())) {
+      if (cut.lead() >= kLeadToRest) continue;
+      for (const std::size_t i : cut.moved) out[i] = true;
+    }
+    return out;
+  }
+
+  // The likeliest component first; then what is left, as long as some of it holds together.
+  void build_components() {
+    result_.measurements.resize(size());
+    result_.decisions.resize(size());
+    std::vector<bool> left(size(), true);
+    while (true) {
+      const PairGraph graph = hypotheses_->graph(left, in_.options.inference);
+      std::vector<Component> likeliest = likeliest_components(graph);
+      if (likeliest.empty()) break;
+      std::size_t num_settled = 0;
+      for (Component& component : likeliest) {
+        if (!in_.options.reference.empty() && component.has(result_.reference)) {
+          change_reference(component, result_.reference);
+        }
+        in_.clock.begin("merge");
+        const auto records = merge_in_tcm_order(scans_, graph, in_.options, in_.context, component);
+        result_.merges.insert(result_.merges.end(), records.begin(), records.end());
+        in_.clock.begin("adjust and verify");
+        settled_.push_back(
+            settle(scans_, *hypotheses_, graph, resolutions_, in_.options, in_.context, std::move(component)));
+        for (std::size_t i = 0; i < size(); ++i) {
+          if (!settled_.back().measurements[i] || result_.measurements[i]) continue;
+          result_.measurements[i] = settled_.back().measurements[i];
+          result_.decisions[i] = settled_.back().decisions[i];
+        }
+        if (settled_.back().component.size() < 2) {
+          settled_.pop_back();
+          continue;
+        }
+        for (const std::size_t i : settled_.back().component.members()) {
+          left[i] = false;
+          result_.measurements[i] = settled_.back().measurements[i];
+          result_.decisions[i] = settled_.back().decisions[i];
+        }
+        ++num_settled;
+      }
+      if (num_settled == 0) break;
+    }
+  }
+
+  void choose_main_component() {
+    std::stable_sort(settled_.begin(), settled_.end(), [&](const SettledComponent& a, const SettledComponent& b) {
+      const bool named = !in_.options.reference.empty();
+      const bool a_named = named && a.component.has(result_.reference), b_named = named && b.component.has(result_.reference);
+      return a_named != b_named ? a_named : a.component.size() > b.component.size();
+    });
+    const bool misses_named = !in_.options.reference.empty() &&
+                              (settled_.empty() || !settled_.front().component.has(result_.reference));
+    if (settled_.empty() || misses_named) {
+      SettledComponent alone;
+      alone.component = component_of_one(in_.options.reference.empty() ? middle_scan() : result_.reference, size());
+      settled_.insert(settled_.begin(), std::move(alone));
+    }
+    const SettledComponent& main = settled_.front();
+    result_.reference = main.component.reference;
+    result_.adjustment = main.adjustment;
+    result_.uncertainty = main.uncertainty;
+    for (const auto& s : settled_) result_.links.insert(result_.links.end(), s.links.begin(), s.links.end());
+    const auto n = static_cast<Eigen::Index>(size());
+    Eigen::MatrixXd measure = Eigen::MatrixXd::Ones(n, n);
+    for (const auto& [pair, found] : hypotheses_->pairs()) {
+      if (found.empty() || found.front().log_odds <= 0) continue;
+      const auto a = static_cast<Eigen::Index>(pair.first), b = static_cast<Eigen::Index>(pair.second);
+      measure(a, b) = measure(b, a) = 1 / (1 + std::exp(found.front().log_odds));
+    }
+    result_.graph = build_correspondence_graph(measure, 1.0);
+    result_.graph.reference = result_.reference;
+  }
+
+  std::size_t middle_scan() const { return size() / 2; }
+
+  void report_poses() {
+    result_.evidence.assign(size(), std::nullopt);
+    result_.free_space.assign(size(), {});
+    result_.features.assign(size(), {});
+    std::vector<ScanMeasurements> main;
+    for (const std::size_t i : settled_.front().component.members()) {
+      if (result_.measurements[i]) main.push_back(*result_.measurements[i]);
+    }
+    const ComponentReference usual = ComponentReference::of(main);
+    int next_component = 1;
+    std::vector<int> number(settled_.size(), -1);
+    number[0] = 0;
+    for (std::size_t i = 0; i < size(); ++i) {
+      std::size_t c = 0;
+      while (c < settled_.size() && !settled_[c].component.has(i)) ++c;
+      const auto& measured = result_.measurements[i];
+      if (measured) {
+        result_.evidence[i] = measured->evidence;
+        result_.free_space[i] = measured->free_space;
+        result_.features[i] = decision_features(*measured, usual);
+      }
+      Decision& decision = result_.decisions[i];
+      ScanPose pose;
+      pose.file = in_.files[i];
+      pose.reason = decision.reason == Reason::kNotDecided ? std::string(to_string(Reason::kNoLink)) : decision.text;
+      if (c == settled_.size()) {
+        if (decision.reason == Reason::kNotDecided) decision.reason = Reason::kNoLink;
+        pose.verdict = "rejected";
+        pose.component = next_component++;
+        result_.poses.push_back(std::move(pose));
+        continue;
+      }
+      const Component& component = settled_[c].component;
+      const Eigen::Isometry3d T = for_raw_coordinates(
+          *component.T_reference_scan[i], in_.sampled[component.reference].scan, in_.sampled[i].scan);
+      if (number[c] < 0) number[c] = next_component++;
+      pose.component = number[c];
+      if (i == result_.reference) {
+        pose.status = ScanStatus::kReference;
+        pose.verdict = "accepted";
+        pose.reason = "the reference";
+        decision.reason = Reason::kReference;
+        result_.evidence[i] = std::nullopt;
+      } else if (c == 0) {
+        pose.status = ScanStatus::kRegistered;
+        pose.verdict = "accepted";
+        pose.T_reference_scan = T;
+      } else {
+        pose.verdict = "rejected";
+        pose.pose_in_component = T;
+        pose.reason = i == component.reference
+                          ? "the reference of a group that does not hold together with the others"
+                          : "belongs to the group of " + in_.files[component.reference] + ": " + pose.reason;
+      }
+      result_.poses.push_back(std::move(pose));
+    }
+  }
+
+  // What the final poses contradict is named.
+  void report_hypotheses() {
+    for (const auto& [pair, found] : hypotheses_->pairs()) {
+      const auto [a, b] = pair;
+      const auto both = std::find_if(settled_.begin(), settled_.end(), [a = a, b = b](const SettledComponent& s) {
+        return s.component.has(a) && s.component.has(b);
+      });
+      for (const auto& h : found) {
+        LinkHypothesisRecord record;
+        record.a = a;
+        record.b = b;
+        record.T_a_b = for_raw_coordinates(h.T_a_b, in_.sampled[a].scan, in_.sampled[b].scan);
+        record.candidate = h.candidate;
+        record.evidence = h.measurements.evidence;
+        record.free_space = h.measurements.free_space;
+        record.log_odds = h.log_odds;
+        record.features = link_features(
+            h.measurements, SearchMeasurements{h.candidate.method, h.candidate.margin, h.second_best_ratio},
+            hypotheses_->reference());
+        record.fate = "open";
+        if (both != settled_.end()) {
+          const auto& T = both->component.T_reference_scan;
+          const Eigen::Isometry3d T_a_b = T[a]->inverse() * *T[b];
+          const double apart_m = rms_displacement(T_a_b.inverse() * h.T_a_b, scans_[b].moments);
+          record.fate = apart_m < hypotheses_->same_m() ? "confirmed" : "contradicted";
+        }
+        result_.hypotheses.push_back(record);
+      }
+    }
+  }
+
+  const PipelineInput& in_;
+  PipelineResult& result_;
+  Resolutions resolutions_;
+  InitialPoses T_init_;  // common frame of the initial poses <- local frame
+  std::vector<PreparedScan> scans_;
+  std::optional<HypothesisSet> hypotheses_;
+  std::vector<SettledComponent> settled_;
+};
+
+}  // namespace
+
+void run_robust_pipeline(const PipelineInput& input, PipelineResult& result) { RobustPipeline(input, result).run(); }
+
+}  // namespace tcm_icp

@@ -1,0 +1,226 @@
+#include "pipeline/settled_component.hpp"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <string>
+
+#include "adjustment/adjustment.hpp"
+#include "adjustment/uncertainty.hpp"
+#include "decision/link_decision.hpp"
+#include "links/link_likelihood.hpp"
+#include "inference/configuration.hpp"
+#include "inference/cuts.hpp"
+#include "links/measure_link.hpp"
+#include "links/verification_at.hpp"
+#include "merging/merged_cloud.hpp"
+#include "pipeline/scan_set.hpp"
+#include "tcm_icp/core/even_sample.hpp"
+#include "tcm_icp/core/parallel.hpp"
+
+namespace tcm_icp {
+namespace {
+
+// Of a scan: those it overlaps most with say what there is to say, and each costs time.
+constexpr std::size_t kMaxNeighbors = 6;
+constexpr std::size_t kUnionPoints = 1000;
+
+class Settling {
+ public:
+  Settling(const std::vector<PreparedScan>& scans, const HypothesisSet& hypotheses, const PairGraph& graph,
+           const Resolutions& resolutions, const PipelineOptions& options, const RunContext& context,
+           Component component)
+      : scans_(scans),
+        hypotheses_(hypotheses),
+        graph_(graph),
+        resolutions_(resolutions),
+        options_(options),
+        context_(context) {
+    out_.component = std::move(component);
+    out_.measurements.resize(scans.size());
+    out_.decisions.resize(scans.size());
+  }
+
+  SettledComponent run() {
+    while (true) {
+      adjust();
+      measure();
+      const std::vector<std::size_t> dropped = decide_members();
+      if (dropped.empty()) break;
+      for (const std::size_t i : dropped) out_.component.T_reference_scan[i].reset();
+      if (!out_.component.has(out_.component.reference)) choose_another_reference();
+    }
+    if (options_.reference.empty()) choose_best_reference();
+    finish();
+    return std::move(out_);
+  }
+
+ private:
+  std::vector<Eigen::Isometry3d> poses() const {
+    std::vector<Eigen::Isometry3d> T;
+    for (const auto& pose : out_.component.T_reference_scan) T.push_back(pose.value_or(Eigen::Isometry3d::Identity()));
+    return T;
+  }
+
+  std::vector<bool> membership() const {
+    std::vector<bool> out;
+    for (const auto& pose : out_.component.T_reference_scan) out.push_back(pose.has_value());
+    return out;
+  }
+
+  void adjust() {
+    std::vector<Eigen::Isometry3d> T = poses();
+    out_.pairs = hypotheses_.without_contradicted(
+        overlapping_pairs(scans_, T, membership(), kMinLinkOverlap, context_.num_threads), T);
+    out_.adjustment =
+        adjust_poses(scans_, out_.pairs, out_.component.reference, resolutions_, options_, context_, T);
+    for (const std::size_t i : out_.component.members()) out_.component.T_reference_scan[i] = T[i];
+  }
+
+  void measure() {
+    context_.report("verifying", 0, 1);
+    const std::vector<Eigen::Isometry3d> T = poses();
+    link_measurements_.assign(out_.pairs.size(), {});
+    parallel_for(context_.num_threads, out_.pairs.size(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t k = begin; k < end; ++k) {
+        const auto [a, b] = out_.pairs[k];
+        link_measurements_[k] = measure_link(scans_[a], scans_[b], T[a].inverse() * T[b]);
+      }
+    });
+    const std::vector<std::size_t> members = out_.component.members();
+    std::vector<ScanMeasurements> measured(members.size());
+    parallel_for(context_.num_threads, members.size(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t k = begin; k < end; ++k) measured[k] = measure_scan(members[k], T);
+    });
+    cuts_ = weakest_cuts(graph_, out_.component);
+    if (members.size() > 1) cuts_.push_back(measure_cut(graph_, out_.component, {out_.component.reference}));
+    for (std::size_t k = 0; k < members.size(); ++k) {
+      out_.measurements[members[k]] = measured[k];
+      weigh_cuts(members[k], *out_.measurements[members[k]]);
+    }
+  }
+
+  // The scan's points against the union of those it overlaps most with.
+  ScanMeasurements measure_scan(std::size_t scan, const std::vector<Eigen::Isometry3d>& T) const {
+    ScanMeasurements out;
+    std::vector<std::pair<double, std::size_t>> neighbors;
+    for (std::size_t k = 0; k < out_.pairs.size(); ++k) {
+      const auto [a, b] = out_.pairs[k];
+      if (a != scan && b != scan) continue;
+      const LinkMeasurements& m = link_measurements_[k];
+      neighbors.emplace_back(-m.evidence.overlap, a == scan ? b : a);
+      out.free_space += m.free_space;
+      out.link_log_odds.push_back(pose_log_odds(link_features(m, std::nullopt, hypotheses_.reference())));
+    }
+    if (neighbors.empty()) return out;
+    std::sort(neighbors.begin(), neighbors.end());
+    const double voxel_m = scans_[scan].pyramid.level(0).voxel_size_m;
+    MergedCloud cloud(voxel_m);
+    for (std::size_t k = 0; k < std::min(kMaxNeighbors, neighbors.size()); ++k) {
+      const std::size_t other = neighbors[k].second;
+      cloud.add(scans_[other].pyramid.level(0).cloud, T[other]);
+    }
+    out.evidence = verify_alignment(even_sample(scans_[scan].held_out_sample, kUnionPoints), cloud.level(), T[scan],
+                                    verification_at(voxel_m));
+    return out;
+  }
+
+  // The cut with the least lead of those that move this scan.
+  void weigh_cuts(std::size_t scan, ScanMeasurements& m) const {
+    const Cut* weakest = nullptr;
+    for (const Cut& cut : cuts_) {
+      if (!std::binary_search(cut.moved.begin(), cut.moved.end(), scan)) continue;
+      if (weakest == nullptr || cut.lead() < weakest->lead()) weakest = &cut;
+    }
+    if (weakest == nullptr) return;
+    m.lead = weakest->lead();
+    m.support = weakest->support;
+    m.num_moved = weakest->moved.size();
+    if (!weakest->other_motion || weakest->other_support <= 0) return;
+    const Eigen::Isometry3d& T = *out_.component.T_reference_scan[scan];
+    m.other_distance = rms_displacement(T.inverse() * *weakest->other_motion * T, scans_[scan].moments);
+  }
+
+  // Who leaves: nobody, where all pass.
+  std::vector<std::size_t> decide_members() {
+    const std::vector<std::size_t> members = out_.component.members();
+    if (members.size() < 2) return {};
+    std::vector<ScanMeasurements> all;
+    for (const std::size_t i : members) all.push_back(*out_.measurements[i]);
+    const ComponentReference usual = ComponentReference::of(all);
+    std::optional<std::size_t> worst;
+    for (const std::size_t i : members) {
+      out_.decisions[i] = decide(*out_.measurements[i], usual, options_.decision);
+      if (out_.decisions[i].accepted()) continue;
+      if (!worst || out_.decisions[i].probability < out_.decisions[*worst].probability) worst = i;
+    }
+    if (!worst) return {};
+    if (out_.decisions[*worst].reason != Reason::kAmbiguous) return {*worst};
+    for (const Cut& cut : cuts_) {
+      const bool same = std::binary_search(cut.moved.begin(), cut.moved.end(), *worst) &&
+                        cut.lead() == out_.measurements[*worst]->lead;
+      if (same && 2 * cut.moved.size() <= members.size()) return cut.moved;
+    }
+    return {*worst};
+  }
+
+  void choose_another_reference() {
+    const std::vector<std::size_t> members = out_.component.members();
+    std::size_t best = members.front();
+    for (const std::size_t i : members) {
+      if (out_.decisions[i].probability > out_.decisions[best].probability) best = i;
+    }
+    change_reference(out_.component, best);
+  }
+
+  void choose_best_reference() {
+    std::vector<std::vector<std::size_t>> adjacency(scans_.size());
+    for (const auto& [a, b] : out_.pairs) {
+      adjacency[a].push_back(b);
+      adjacency[b].push_back(a);
+    }
+    const std::size_t best = choose_reference(adjacency);
+    if (out_.component.has(best) && adjacency[best].size() > adjacency[out_.component.reference].size()) {
+      change_reference(out_.component, best);
+    }
+  }
+
+  void finish() {
+    const std::vector<Eigen::Isometry3d> T = poses();
+    for (std::size_t k = 0; k < out_.pairs.size(); ++k) {
+      const auto [a, b] = out_.pairs[k];
+      const LinkDecision decision = decide_link(link_measurements_[k], hypotheses_.reference());
+      LinkRecord record;
+      record.a = a;
+      record.b = b;
+      record.evidence = link_measurements_[k].evidence;
+      record.free_space = link_measurements_[k].free_space;
+      record.probability = decision.probability;
+      record.verdict = decision.verdict;
+      record.reason = decision.text;
+      out_.links.push_back(record);
+    }
+    measure_uncertainty(scans_, out_.pairs, out_.component.reference, resolutions_, T, context_.num_threads,
+                        out_.uncertainty, out_.links);
+  }
+
+  const std::vector<PreparedScan>& scans_;
+  const HypothesisSet& hypotheses_;
+  const PairGraph& graph_;
+  const Resolutions& resolutions_;
+  const PipelineOptions& options_;
+  const RunContext& context_;
+  SettledComponent out_;
+  std::vector<LinkMeasurements> link_measurements_;
+  std::vector<Cut> cuts_;
+};
+
+}  // namespace
+
+SettledComponent settle(const std::vector<PreparedScan>& scans, const HypothesisSet& hypotheses,
+                        const PairGraph& graph, const Resolutions& resolutions, const PipelineOptions& options,
+                        const RunContext& context, Component component) {
+  return Settling(scans, hypotheses, graph, resolutions, options, context, std::move(component)).run();
+}
+
+}  // namespace tcm_icp

@@ -1,0 +1,99 @@
+"""Sets of simulated scans that the link and scan models are fitted to: scenes, sensors, and what goes wrong with scans."""
+
+import json
+import shutil
+import subprocess
+from dataclasses import dataclass
+
+import numpy as np
+
+from ply import read_points, write_points
+
+
+@dataclass(frozen=True)
+class Scene:
+    """What `tcm-icp simulate` is asked for."""
+
+    name: str
+    arguments: tuple
+
+
+SCENES = (
+    Scene("town", ("--scene", "town", "--scans", "6")),
+    Scene("block", ("--scene", "block", "--scans", "9")),
+    Scene("street", ("--scene", "street", "--scans", "9")),
+    Scene("street16", ("--scene", "street", "--scans", "8", "--lines", "16")),
+    Scene("urban", ("--scene", "urban", "--scans", "8")),
+    Scene("urban16", ("--scene", "urban", "--scans", "8", "--lines", "16", "--speed", "0")),
+    Scene("canopy", ("--scene", "canopy", "--scans", "6")),
+    Scene("strips", ("--scene", "canopy", "--scans", "6", "--sensor", "aerial")),
+    Scene("interior", ("--scene", "interior", "--scans", "6")),
+    Scene("rooms", ("--scene", "interior", "--scans", "10", "--spacing", "4")),
+    Scene("rooms16", ("--scene", "interior", "--scans", "8", "--sensor", "spinning", "--lines", "16", "--spacing", "3",
+                      "--height", "1.5", "--min-range", "0.3", "--max-range", "40")),
+    Scene("plaza", ("--scene", "plaza", "--scans", "6")),
+    Scene("bays", ("--scene", "bays", "--scans", "8")),
+)
+VARIANTS = ("plain", "thin", "crop", "mirror", "stranger", "clutter", "subset")
+
+
+def simulate(exe, scene, seed, folder):
+    if not (folder / "truth.json").exists():
+        shutil.rmtree(folder, ignore_errors=True)
+        subprocess.run([exe, "simulate", *scene.arguments, "--seed", str(seed), "--threads", "1", "--out", str(folder)],
+                       check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+
+
+def _emit(folder, scans, truth):
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir(parents=True)
+    entries = []
+    for k, (points, pose, group) in enumerate(scans):
+        name = f"{k:03d}.ply"
+        write_points(folder / name, points)
+        entries.append({"file": name, "pose": pose, "group": group})
+    (folder / "truth.json").write_text(json.dumps({"scans": entries, "tolerance": truth["tolerance"]}))
+
+
+def _extent(points):
+    return float(np.median(np.linalg.norm(points - np.median(points, 0), axis=1)))
+
+
+def make_variant(plain, variant, seed, other, folder):
+    """The set in `plain` with one thing wrong; `other` is a set of another scene, for strangers."""
+    if (folder / "truth.json").exists():
+        return
+    rng = np.random.default_rng([seed, sum(map(ord, variant))])
+    truth = json.loads((plain / "truth.json").read_text())
+    scans = [(read_points(plain / s["file"]), s["pose"], 0) for s in truth["scans"]]
+    if variant == "thin":
+        share = rng.uniform(0.08, 0.3)
+        scans = [(p[rng.random(len(p)) < share], pose, g) for p, pose, g in scans]
+    elif variant == "crop":
+        cropped = []
+        for p, pose, g in scans:
+            along = p @ np.array([np.cos(a := rng.uniform(0, 2 * np.pi)), np.sin(a), 0])
+            cropped.append((p[along <= np.quantile(along, rng.uniform(0.5, 0.7))], pose, g))
+        scans = cropped
+    elif variant == "mirror":
+        k = int(rng.integers(len(scans)))
+        scans[k] = (scans[k][0] * [-1, 1, 1], scans[k][1], 1)
+    elif variant == "stranger":
+        strange = json.loads((other / "truth.json").read_text())["scans"]
+        for k in range(2):
+            p = read_points(other / strange[int(rng.integers(len(strange)))]["file"])
+            scans.append((p * (_extent(scans[0][0]) / _extent(p)), scans[0][1], k + 1))
+    elif variant == "clutter":
+        scans = [(_cluttered(p, rng), pose, g) for p, pose, g in scans]
+    elif variant == "subset":
+        size = int(rng.integers(2, min(4, len(scans) - 1) + 1))
+        scans = [scans[i] for i in sorted(rng.permutation(len(scans))[:size])]
+    _emit(folder, scans, truth)
+
+
+def _cluttered(points, rng):
+    """15 % of the points become blobs that no other scan has."""
+    out, radius = points.copy(), 0.03 * _extent(points)
+    for blob in np.array_split(rng.permutation(len(points))[: int(0.15 * len(points))], 40):
+        out[blob] = points[int(rng.integers(len(points)))] + rng.normal(size=(len(blob), 3)) * radius + [0, 0, radius]
+    return out
