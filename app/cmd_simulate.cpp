@@ -70,17 +70,18 @@ po::options_description describe(Request& r) {
   po::options_description what("What to simulate", 110);
   what.add_options()(
       "scene", bind_option(&r.scene),
-      "town, block (a closed loop), street (mobile), urban (moving platform), canopy (lake shore), interior or "
-      "plaza; each has defaults of its own")                                             //
+      "town, block (a closed loop), street (mobile), urban (moving platform), canopy (lake shore), interior, "
+      "plaza or bays (a building that repeats itself); each has defaults of its own")    //
       ("scans", bind_option(&s.num_scans), "number of stations along the scene's path")  //
       ("spacing", bind_option(&s.station_spacing_m),
        "[m] between stations; those of town and plaza share out their path")  //
       ("overlap", po::value(&r.overlap),
-       "choose the spacing so that neighbouring scans share about this much (0.05..0.95)")    //
-      ("seed", bind_option(&r.context.seed), "the same seed gives the same bytes")            //
-      ("threads", bind_option(&r.context.num_threads), "changes the time, never the result")  //
-      ("out", po::value(&r.out)->required(), "folder to make: 000.ply ..., truth.json")       //
-      ("force", "replace an earlier result in that folder")                                   //
+       "choose the spacing so that neighbouring scans share about this much (0.05..0.95)")               //
+      ("clutter", bind_option(&s.bays.clutter), "of bays: things a bay, which tell it from the others")  //
+      ("seed", bind_option(&r.context.seed), "the same seed gives the same bytes")                       //
+      ("threads", bind_option(&r.context.num_threads), "changes the time, never the result")             //
+      ("out", po::value(&r.out)->required(), "folder to make: 000.ply ..., truth.json")                  //
+      ("force", "replace an earlier result in that folder")                                              //
       ("initial-guess", po::value(&r.initial_guess)->multitoken()->value_name("DEG METRES"),
        "also write initial_poses.json: the truth, off by 0.6 to 1 times this turn and shift; the first scan exact")  //
       ("help,h", "this text");
@@ -124,8 +125,8 @@ int cmd_simulate(const Arguments& arguments) {
   po::variables_map given;
   po::store(po::command_line_parser(arguments).options(description).positional({}).run(), given);
   if (given.count("help") > 0) {
-    std::cout << "Usage: tcm-icp simulate --scene town|block|street|urban|canopy|interior|plaza --scans N --out DIR "
-                 "[--seed N] ...\n"
+    std::cout << "Usage: tcm-icp simulate --scene town|block|street|urban|canopy|interior|plaza|bays --scans N "
+                 "--out DIR [--seed N] ...\n"
                  "LiDAR scans of a made-up scene, each in a frame of its own, with exact truth.\n\n"
               << description;
     return kSuccess;

@@ -69,11 +69,20 @@ SceneSetOptions default_interior(SceneSetOptions options) {
   return options;
 }
 
+/// The same for halls: farther apart, and as many stations as see two storeys.
+SceneSetOptions default_bays(SceneSetOptions options) {
+  options = default_interior(options);
+  options.scanner.max_range_m = 40;
+  options.station_spacing_m = 8;
+  options.num_scans = 12;
+  return options;
+}
+
 }  // namespace
 
 std::vector<SceneKind> scene_kinds() {
   return {SceneKind::kTown,   SceneKind::kBlock,    SceneKind::kStreet, SceneKind::kUrban,
-          SceneKind::kCanopy, SceneKind::kInterior, SceneKind::kPlaza};
+          SceneKind::kCanopy, SceneKind::kInterior, SceneKind::kPlaza,  SceneKind::kBays};
 }
 
 SceneKind scene_kind_from_name(const std::string& name) {
@@ -101,6 +110,8 @@ std::string scene_name(SceneKind kind) {
       return "interior";
     case SceneKind::kPlaza:
       return "plaza";
+    case SceneKind::kBays:
+      return "bays";
   }
   throw InvalidOptions("simulate: unknown scene");
 }
@@ -124,6 +135,8 @@ SceneSetOptions default_scene_set(SceneKind kind) {
     case SceneKind::kPlaza:
       set_sensor(options, SensorKind::kTerrestrial);
       return options;
+    case SceneKind::kBays:
+      return default_bays(options);
   }
   throw InvalidOptions("simulate: unknown scene");
 }

@@ -60,6 +60,11 @@ Scene make_scene(const SceneSetOptions& options, std::uint64_t seed) {
       return make_interior_scene({std::max(15.0, needed_m - 16)}, rng);
     case SceneKind::kPlaza:
       return make_plaza_scene({}, rng);
+    case SceneKind::kBays: {
+      BaysOptions bays = options.bays;
+      bays.path_length_m = std::max(8.0, needed_m);
+      return make_bays_scene(bays, rng);
+    }
   }
   throw InvalidOptions("simulate: unknown scene");
 }
@@ -110,6 +115,7 @@ void add_scan(SceneSet& set, const RayCaster& caster, int index, int num_threads
 
 void SceneSetOptions::validate() const {
   town.validate();
+  bays.validate();
   scanner.validate();
   if (initial_guess) initial_guess->validate();
   require(num_scans >= 1 && num_scans <= 1000, "num_scans", num_scans, "1..1000");
@@ -119,8 +125,10 @@ void SceneSetOptions::validate() const {
   require(drift_share >= 0 && drift_share <= 0.01, "drift_share", drift_share, "0..0.01");
   require(max_tilt_deg >= 0 && max_tilt_deg <= 90, "max_tilt_deg", max_tilt_deg, "0..90");
   require(max_shift_m >= 0 && std::isfinite(max_shift_m), "max_shift_m", max_shift_m, ">= 0");
-  if (scene == SceneKind::kInterior && scanner.sensor == SensorKind::kAerial)
-    throw InvalidOptions("simulate: an aerial sensor sees nothing of an interior but its roof; choose another");
+  const bool has_roof = scene == SceneKind::kInterior || scene == SceneKind::kBays;
+  if (has_roof && scanner.sensor == SensorKind::kAerial)
+    throw InvalidOptions("simulate: an aerial sensor sees nothing of " + scene_name(scene) +
+                         " but its roof; choose another");
 }
 
 SceneSet simulate_scene_set(const SceneSetOptions& options, const RunContext& context) {

@@ -97,6 +97,7 @@ Json truth_json(const SceneSet& set) {
   const bool is_shared = set.options.scene == SceneKind::kTown || set.options.scene == SceneKind::kPlaza;
   if (!is_shared || set.options.overlap) out["station_spacing_m"] = set.options.station_spacing_m;
   if (set.options.overlap) out["wanted_overlap"] = *set.options.overlap;
+  if (set.options.scene == SceneKind::kBays) out["clutter"] = set.options.bays.clutter;
   out["scanner_options"] = scanner_json(set.options.scanner);
   out["scans"] = scans;
   out["tolerance"] = {{"rotation_deg", set.truth.tolerance.rotation_deg}, {"rmse_m", set.truth.tolerance.rmse_m}};

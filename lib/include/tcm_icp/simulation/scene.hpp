@@ -78,6 +78,22 @@ struct PlazaOptions {
 /// @throws InvalidOptions
 Scene make_plaza_scene(const PlazaOptions& options, Rng& rng);
 
+struct BaysOptions {
+  int storeys = 2;            ///< 1..10, alike; stairs join them
+  int bays_along = 10;        ///< 7..200; more where the path asks for it
+  int bays_across = 3;        ///< 3..20
+  double clutter = 1;         ///< 0..10, things a bay on average: what tells bays apart; 0 leaves out pipes, too
+  int partitions = 2;         ///< 0..20, walls between two columns on each storey
+  double path_length_m = 96;  ///< [m] 8..20000
+  void validate() const;      ///< throws InvalidOptions
+};
+
+/// A large building with columns every few metres. Bays and storeys are alike to the millimetre, but for lifts and
+/// stairs in one place, the same on all storeys, and clutter. The way leads around on each storey, along one aisle and
+/// back along another, and up the stairs between; the path is the middle of it.
+/// @throws InvalidOptions
+Scene make_bays_scene(const BaysOptions& options, Rng& rng);
+
 struct BlockOptions {
   double perimeter_m = 240;  ///< [m] 120..20000, of the street's middle line
   void validate() const;     ///< throws InvalidOptions

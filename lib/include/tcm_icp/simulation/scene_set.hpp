@@ -21,11 +21,12 @@ enum class SceneKind {
   kUrban,     ///< buildings and trees around a corner, from a moving platform with a sensor of low accuracy
   kCanopy,    ///< a lake shore with many small things, under an open tree canopy
   kInterior,  ///< rooms and a corridor
-  kPlaza      ///< a square before a symmetric building
+  kPlaza,     ///< a square before a symmetric building
+  kBays       ///< a large building with columns: a place that repeats itself
 };
 
-/// "town", "block", "street", "urban", "canopy", "interior", "plaza"; @throws InvalidOptions  naming the scenes there
-/// are
+/// "town", "block", "street", "urban", "canopy", "interior", "plaza", "bays"; @throws InvalidOptions  naming the scenes
+/// there are
 SceneKind scene_kind_from_name(const std::string& name);
 std::string scene_name(SceneKind kind);
 std::vector<SceneKind> scene_kinds();
@@ -33,6 +34,7 @@ std::vector<SceneKind> scene_kinds();
 struct SceneSetOptions {
   SceneKind scene = SceneKind::kTown;
   TownOptions town;
+  BaysOptions bays;               ///< but for the path's length, which is what the scans need
   double station_spacing_m = 14;  ///< [m] 1..100; all scenes but town and plaza, whose stations share out their path,
                                   ///< are made as long as the scans need
   std::optional<double> overlap;  ///< 0.05..0.95; the spacing is chosen so that neighbours share about this much

@@ -1,0 +1,37 @@
+#pragma once
+// Stairs between two storeys alike.
+
+#include "simulation/bay_plan.hpp"
+#include "tcm_icp/core/cloud.hpp"
+#include "tcm_icp/simulation/triangle_mesh.hpp"
+
+namespace tcm_icp {
+
+/// Two flights side by side in the opening of a plan: up along x to a landing half way, and back.
+class BayStairs {
+ public:
+  explicit BayStairs(const BayPlan& plan);
+
+  /// From before the first step on the floor at `floor_m` to behind the last one.
+  Points path(double floor_m) const;
+
+  /// Steps, landing and handrails.
+  void add_to(TriangleMesh& mesh, double floor_m) const;
+
+  /// Handrails around the opening in the floor at `floor_m`.
+  void guard(TriangleMesh& mesh, double floor_m) const;
+
+ private:
+  static constexpr double kTread_m = 0.28;
+  static constexpr double kLanding_m = 1.3;
+  static constexpr double kHalfFlight_m = 0.7;
+  static constexpr double kFlightMiddle_m = 0.85;  ///< of either flight, from the middle of both
+
+  const Eigen::AlignedBox2d opening_;
+  const double middle_m_;  ///< along y
+  const double half_rise_m_;
+  const int num_steps_;  ///< of a flight; the last is the landing or the floor
+  const double end_m_;   ///< of the flights, where the landing begins
+};
+
+}  // namespace tcm_icp
