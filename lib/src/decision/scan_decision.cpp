@@ -160,12 +160,13 @@ void DecisionOptions::validate() const {
 
 Decision decide(const ScanMeasurements& m, const ComponentReference& component, const DecisionOptions& options) {
   Decision decision;
+  decision.features = decision_features(m, component);
   if (agreeing(m.evidence) < static_cast<double>(kFewAgreeing)) {
     decision.reason = m.evidence.num_points < kFewAgreeing ? Reason::kTooFewPoints : Reason::kMisfit;
     decision.text = describe(decision.reason, m, component);
     return decision;
   }
-  const DecisionFeatures f = decision_features(m, component);
+  const DecisionFeatures& f = decision.features;
   double log_odds = kScanModel.constant;
   std::array<double, 10> taken{};
   for (std::size_t i = 0; i < f.size(); ++i) {

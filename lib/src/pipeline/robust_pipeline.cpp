@@ -160,12 +160,6 @@ class RobustPipeline {
   void report_poses() {
     result_.evidence.assign(size(), std::nullopt);
     result_.free_space.assign(size(), {});
-    result_.features.assign(size(), {});
-    std::vector<ScanMeasurements> main;
-    for (const std::size_t i : settled_.front().component.members()) {
-      if (result_.measurements[i]) main.push_back(*result_.measurements[i]);
-    }
-    const ComponentReference usual = ComponentReference::of(main);
     int next_component = 1;
     std::vector<int> number(settled_.size(), -1);
     number[0] = 0;
@@ -176,7 +170,6 @@ class RobustPipeline {
       if (measured) {
         result_.evidence[i] = measured->evidence;
         result_.free_space[i] = measured->free_space;
-        result_.features[i] = decision_features(*measured, usual);
       }
       Decision& decision = result_.decisions[i];
       ScanPose pose;

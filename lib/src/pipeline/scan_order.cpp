@@ -69,7 +69,6 @@ void restore_order(const std::vector<std::size_t>& order, PipelineResult& result
   restore(order, result.free_space);
   restore(order, result.viewpoints);
   restore(order, result.measurements);
-  restore(order, result.features);
   restore(order, result.decisions);
   restore_graph(order, result.graph);
   restore(order, result.uncertainty.poses);

@@ -107,7 +107,7 @@ Json decision_json(const PipelineResult& result, std::size_t scan) {
   j["support"] = number(m->support);
   j["other_place_m"] = m->other_distance ? number(*m->other_distance) : Json(nullptr);
   j["moves_with"] = m->num_moved - 1;
-  j["features"] = result.features[scan];
+  j["features"] = d.features;
   return j;
 }
 

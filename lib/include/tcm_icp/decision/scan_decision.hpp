@@ -63,6 +63,7 @@ struct Decision {
   Reason reason = Reason::kNotDecided;
   double probability = 0;  ///< that the place is right
   std::string text;        ///< the reason for a person, with its figures
+  DecisionFeatures features{};  ///< what the probability was told from
   bool accepted() const { return reason == Reason::kAccepted || reason == Reason::kReference; }
 };
 

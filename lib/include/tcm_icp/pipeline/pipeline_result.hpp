@@ -104,7 +104,6 @@ struct PipelineResult {
   std::vector<FreeSpaceEvidence> free_space;  ///< of the same poses, against the neighbours together
   /// Of each scan's last place in a component; robust profile only.
   std::vector<std::optional<ScanMeasurements>> measurements;
-  std::vector<DecisionFeatures> features;  ///< of the same; 0 where there are none
   std::vector<Decision> decisions;
   /// Of each scan, in raw coordinates; not looked for in the paper profile.
   std::vector<std::optional<Viewpoint>> viewpoints;
