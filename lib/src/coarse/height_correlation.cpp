@@ -26,6 +26,9 @@ constexpr int kFineScale = 2;
 constexpr double kDistinctSteps = 3;
 constexpr double kOpposite = -0.999;    // cosine of two directions that are one axis
 constexpr double kDistinctShare = 0.1;  // of a typical scan's width
+// Of ways that both scans may be up: those looked at in full, and what their peaks on coarse maps come to.
+constexpr std::size_t kPeaksScreened = 8, kMaxUps = 2;
+constexpr double kLikelyUps = 0.8;
 
 // One scan from above, for each way that may be up.
 struct ScanMaps {
@@ -106,6 +109,12 @@ void Search::make_maps(const std::vector<const Cloud*>& clouds, bool for_candida
   });
 }
 
+bool wanted(const ScanPair& pair, std::size_t target_map, std::size_t source_map) {
+  return pair.ups.empty() || std::any_of(pair.ups.begin(), pair.ups.end(), [&](const UpPair& up) {
+           return up.target == target_map && up.source == source_map;
+         });
+}
+
 std::vector<PeakList> Search::correlate(const std::vector<ScanPair>& pairs, std::size_t num_peaks) {
   const double distinct_cells = kDistinctShare * options.cells_across;
   std::vector<PeakList> lists(pairs.size(), PeakList(num_peaks, 1.5 * heading_step_rad(), distinct_cells / 2));
@@ -131,6 +140,7 @@ std::vector<PeakList> Search::correlate(const std::vector<ScanPair>& pairs, std:
           for (peak.source_map = 0; peak.source_map < source.maps.size(); ++peak.source_map) {
             // Both scans upside down is the pose of both upright, seen from below.
             if (target.is_second_sign(peak.target_map) && source.has_both_signs(peak.source_map)) continue;
+            if (!wanted(pairs[k], peak.target_map, peak.source_map)) continue;
             const double least = min_shared(target.maps[peak.target_map], source.maps[peak.source_map]);
             for (const bool quarter : {false, true}) {
               peak.heading_rad = heading_rad;
@@ -229,19 +239,27 @@ void check_pairs(std::size_t num_scans, const std::vector<ScanPair>& pairs) {
 
 }  // namespace
 
-std::vector<double> screen_by_height_maps(const std::vector<const Cloud*>& scans, const std::vector<ScanPair>& pairs,
-                                          const HeightCorrelationOptions& options, int num_threads) {
+std::vector<PairScreening> screen_by_height_maps(const std::vector<const Cloud*>& scans,
+                                                 const std::vector<ScanPair>& pairs,
+                                                 const HeightCorrelationOptions& options, int num_threads) {
   options.validate();
   check_pairs(scans.size(), pairs);
-  std::vector<double> out(pairs.size(), 0.0);
+  std::vector<PairScreening> out(pairs.size());
   if (pairs.empty()) return out;
   Search search{options, num_threads, {}};
   search.find_footprints(scans);
   search.choose_grid();
   search.make_maps(scans, false);
-  const auto lists = search.correlate(pairs, 1);
+  const auto lists = search.correlate(pairs, kPeaksScreened);
   for (std::size_t k = 0; k < pairs.size(); ++k) {
-    if (!lists[k].peaks().empty()) out[k] = lists[k].peaks().front().score;
+    for (const MapPeak& peak : lists[k].peaks()) {
+      out[k].score = std::max(out[k].score, peak.score);
+      const bool known = std::any_of(out[k].ups.begin(), out[k].ups.end(), [&](const UpPair& up) {
+        return up.target == peak.target_map && up.source == peak.source_map;
+      });
+      if (known || out[k].ups.size() == kMaxUps || peak.score < kLikelyUps * out[k].score) continue;
+      out[k].ups.push_back({peak.target_map, peak.source_map});
+    }
   }
   return out;
 }

@@ -21,7 +21,7 @@ namespace {
 // alone, and then slides, which need poses to start from.
 
 // A scan overlaps few others much. Where there are more, all pairs are ranked at little cost first.
-constexpr std::size_t kFirstPartners = 10;
+constexpr std::size_t kFirstPartners = 6;
 constexpr std::size_t kSlidesOfPose = 8;  // from one pose
 // Of a pair and method, beside those that free space vetoes; a clear hypothesis ends them.
 constexpr int kMaxFits = 3;
@@ -48,12 +48,16 @@ struct PairSearch::Impl {
   const PipelineOptions& options;
   const RunContext& context;
   std::vector<Tried> tried;  // by pair, a * n + b
+  std::vector<PairScreening> screened;  // by pair, the same
   std::vector<std::vector<std::size_t>> partners;
   std::vector<std::size_t> reach;  // how many of them were asked for, of each scan
   FeatureAlignmentOptions features;
   std::vector<DescribedScan> described;                                                  // once they are asked for
   std::map<std::pair<std::size_t, std::size_t>, std::vector<Eigen::Isometry3d>> fitted;  // target and source
 
+  const PairScreening& screening_of(std::size_t a, std::size_t b) const {
+    return screened[std::min(a, b) * scans.size() + std::max(a, b)];
+  }
   Tried& state(std::size_t a, std::size_t b) { return tried[std::min(a, b) * scans.size() + std::max(a, b)]; }
 
   /// Pairs of the state wanted, of each wanted scan with its likeliest partners.
@@ -81,30 +85,24 @@ struct PairSearch::Impl {
     if (!partners.empty()) return;
     partners.resize(n);
     reach.assign(n, kFirstPartners);
-    std::vector<double> score(n * n, 0.0);
-    if (n > kFirstPartners + 1) {
-      context.report("ranking pairs", 0, n * (n - 1) / 2);
-      std::vector<const Cloud*> clouds;
-      for (const auto& s : scans) clouds.push_back(&s.fine.cloud);
-      std::vector<ScanPair> all;
-      for (std::size_t a = 0; a < n; ++a) {
-        for (std::size_t b = a + 1; b < n; ++b) {
-          all.push_back({a, b});
-        }
-      }
-      HeightCorrelationOptions screening = screening_options();
-      screening.vertical.levelled = options.level;
-      const auto scores = screen_by_height_maps(clouds, all, screening, context.num_threads);
-      for (std::size_t k = 0; k < all.size(); ++k) {
-        score[all[k].target * n + all[k].source] = score[all[k].source * n + all[k].target] = scores[k];
-      }
+    screened.resize(n * n);
+    context.report("ranking pairs", 0, n * (n - 1) / 2);
+    std::vector<const Cloud*> clouds;
+    for (const auto& s : scans) clouds.push_back(&s.fine.cloud);
+    std::vector<ScanPair> all;
+    for (std::size_t a = 0; a < n; ++a) {
+      for (std::size_t b = a + 1; b < n; ++b) all.push_back({a, b});
     }
+    HeightCorrelationOptions screening = screening_options();
+    screening.vertical.levelled = options.level;
+    auto screenings = screen_by_height_maps(clouds, all, screening, context.num_threads);
+    for (std::size_t k = 0; k < all.size(); ++k) screened[all[k].target * n + all[k].source] = std::move(screenings[k]);
     for (std::size_t i = 0; i < n; ++i) {
       for (std::size_t j = 0; j < n; ++j) {
         if (j != i) partners[i].push_back(j);
       }
       std::stable_sort(partners[i].begin(), partners[i].end(), [&](std::size_t x, std::size_t y) {
-        const double a = score[i * n + x], b = score[i * n + y];
+        const double a = screening_of(i, x).score, b = screening_of(i, y).score;
         return a != b ? a > b : x < y;
       });
     }
@@ -132,7 +130,7 @@ struct PairSearch::Impl {
         place[i] = clouds.size();
         clouds.push_back(&scans[i].fine.cloud);
       }
-      wanted.push_back({place[a], place[b]});
+      wanted.push_back({place[a], place[b], screening_of(a, b).ups});
     }
     HeightCorrelationOptions correlation;
     correlation.vertical.levelled = options.level;

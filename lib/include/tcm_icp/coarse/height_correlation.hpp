@@ -21,10 +21,17 @@ struct HeightCorrelationOptions {
   void validate() const;  ///< throws InvalidOptions
 };
 
+/// Directions that may be up in both scans of a pair, by their places in find_up_directions().
+struct UpPair {
+  std::size_t target = 0;
+  std::size_t source = 0;
+};
+
 /// Two scans of a set, by their places in it.
 struct ScanPair {
   std::size_t target = 0;
   std::size_t source = 0;
+  std::vector<UpPair> ups{};  ///< to search; none: all there are
 };
 
 /// For each pair up to max_candidates clearly different poses, the best score first. Score: mean of the normalised
@@ -49,11 +56,19 @@ inline HeightCorrelationOptions screening_options() {
   return options;
 }
 
-/// For each pair the score of the best peak of the search, before anything is refined; 0 where there is none. Larger
-/// where more is shared, so it ranks partners of a scan; it is no verdict.
+/// What a search on coarse maps says of a pair.
+struct PairScreening {
+  double score = 0;         ///< of the best peak, before anything is refined; 0 where there is none
+  std::vector<UpPair> ups;  ///< worth a full search, the best first
+};
+
+/// Scores are larger where more is shared, so they rank partners of a scan; they are no verdict. Of directions that may
+/// be up, a pair keeps two at most: those whose peaks come to 0.8 of the best.
 /// @throws InvalidInput  as above
-/// Cost: with screening_options() 36 inverse transforms a pair, about 1 ms of processor time.
-std::vector<double> screen_by_height_maps(const std::vector<const Cloud*>& scans, const std::vector<ScanPair>& pairs,
-                                          const HeightCorrelationOptions& options, int num_threads);
+/// Cost: with screening_options() 36 inverse transforms a pair, about 1 ms of processor time, for each of the ways that
+/// both may be up.
+std::vector<PairScreening> screen_by_height_maps(const std::vector<const Cloud*>& scans,
+                                                 const std::vector<ScanPair>& pairs,
+                                                 const HeightCorrelationOptions& options, int num_threads);
 
 }  // namespace tcm_icp
