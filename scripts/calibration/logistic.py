@@ -3,8 +3,21 @@
 import numpy as np
 
 
-def fit(X, y, ridge=1.0, steps=60):
-    """Constant and weights by Newton's method; `ridge` on the weights of standardised features."""
+def fit(X, y, ridge=1.0, signs=None):
+    """Constant and weights; where `signs` has +1 or -1, a weight of the other sign becomes 0, the worst first."""
+    free = np.ones(X.shape[1], bool)
+    while True:
+        constant, weights, scaled = _newton(X[:, free], y, ridge)
+        full, score = np.zeros(X.shape[1]), np.zeros(X.shape[1])
+        full[free], score[free] = weights, scaled
+        against = np.zeros(X.shape[1]) if signs is None else np.minimum(score * signs, 0)
+        if against.min() >= 0:
+            return constant, full
+        free[int(np.argmin(against))] = False
+
+
+def _newton(X, y, ridge, steps=60):
+    """Constant, weights, and weights of standardised features, on which `ridge` is."""
     mean, deviation = X.mean(0), X.std(0) + 1e-9
     Z = np.c_[np.ones(len(X)), (X - mean) / deviation]
     b = np.zeros(Z.shape[1])
@@ -17,15 +30,15 @@ def fit(X, y, ridge=1.0, steps=60):
         if abs(step).max() < 1e-8:
             break
     weights = b[1:] / deviation
-    return b[0] - weights @ mean, weights
+    return b[0] - weights @ mean, weights, b[1:]
 
 
-def held_out(X, y, group, ridge=1.0):
+def held_out(X, y, group, ridge=1.0, signs=None):
     """Log-odds of each row by a model fitted to the rows of all other groups."""
     out = np.zeros(len(y))
     for g in np.unique(group):
         rest = group != g
-        constant, weights = fit(X[rest], y[rest], ridge)
+        constant, weights = fit(X[rest], y[rest], ridge, signs)
         out[~rest] = constant + X[~rest] @ weights
     return out
 

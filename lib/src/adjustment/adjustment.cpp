@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <string>
 
 #include "registration/joint_normal_equations.hpp"
@@ -18,6 +19,8 @@ namespace {
 constexpr std::size_t kLpMatchesOfLink = 150;
 constexpr std::size_t kLpMatches = 8'000;
 constexpr std::size_t kLpMatchesExact = 600;
+
+constexpr std::size_t kPairsOfScan = 8;
 
 std::size_t lp_matches_of_link(std::size_t num_links, LpSolver solver) {
   const std::size_t all = solver == LpSolver::kCgal ? kLpMatchesExact : kLpMatches;
@@ -128,21 +131,32 @@ ScanPairs overlapping_pairs(const std::vector<PreparedScan>& scans,
       if (placed[a] && placed[b]) candidates.emplace_back(a, b);
     }
   }
-  std::vector<char> keep(candidates.size(), 0);
+  std::vector<double> shares(candidates.size(), 0);
   parallel_for(num_threads, candidates.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const auto [a, b] = candidates[i];
       const PyramidLevel& level_a = scans[a].pyramid.level(1);
       const PyramidLevel& level_b = scans[b].pyramid.level(1);
-      const double share = overlap({level_a.cloud.points, level_a.index}, {level_b.cloud.points, level_b.index},
+      shares[i] = overlap({level_a.cloud.points, level_a.index}, {level_b.cloud.points, level_b.index},
                                    T_reference_scan[a].inverse() * T_reference_scan[b], level_a.voxel_size_m);
-      keep[i] = share >= min_overlap ? 1 : 0;
     }
   });
-  ScanPairs pairs;
-  for (std::size_t i = 0; i < candidates.size(); ++i) {
-    if (keep[i] != 0) pairs.push_back(candidates[i]);
+  std::vector<std::size_t> order(candidates.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t x, std::size_t y) { return shares[x] > shares[y]; });
+  std::vector<std::size_t> num_pairs(scans.size(), 0);
+  std::vector<std::size_t> kept;
+  for (const std::size_t i : order) {
+    if (shares[i] < min_overlap) break;
+    const auto [a, b] = candidates[i];
+    if (std::min(num_pairs[a], num_pairs[b]) >= kPairsOfScan) continue;
+    ++num_pairs[a];
+    ++num_pairs[b];
+    kept.push_back(i);
   }
+  std::sort(kept.begin(), kept.end());
+  ScanPairs pairs;
+  for (const std::size_t i : kept) pairs.push_back(candidates[i]);
   return pairs;
 }
 

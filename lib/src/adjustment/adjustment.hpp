@@ -12,7 +12,8 @@
 
 namespace tcm_icp {
 
-/// Pairs (a < b) of placed scans of which one has at least `min_overlap` of its points near the other.
+/// Pairs (a < b) of placed scans of which one has at least `min_overlap` of its points near the other: of each scan the
+/// eight it shares most with, since more of them say the same again.
 ScanPairs overlapping_pairs(const std::vector<PreparedScan>& scans,
                             const std::vector<Eigen::Isometry3d>& T_reference_scan, const std::vector<bool>& placed,
                             double min_overlap, int num_threads);

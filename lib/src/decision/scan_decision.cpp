@@ -33,6 +33,14 @@ double beyond(std::size_t part, std::size_t all, double usual) {
   return std::log1p((count - std::min(count, std::sqrt(count))) / static_cast<double>(all) / usual);
 }
 
+double violations(const FreeSpaceEvidence& e) {
+  return e.tells() ? beyond(e.num_violating, e.num_points, kUsualViolations) : 0;
+}
+
+double opposed(const FreeSpaceEvidence& e) {
+  return e.num_matches >= kFewMatches ? beyond(e.num_opposed, e.num_matches, kUsualOpposed) : 0;
+}
+
 double agreeing(const AlignmentEvidence& e) { return e.consensus() * static_cast<double>(e.num_points); }
 
 std::string percent(double share) {
@@ -116,10 +124,8 @@ DecisionFeatures decision_features(const ScanMeasurements& m, const ComponentRef
   f[7] = mean_left;
   f[8] = across ? std::min(e.left_across, kMostLeft) : 0;
   f[9] = across ? 0 : 1;
-  f[10] = space ? beyond(m.free_space.num_violating, m.free_space.num_points, kUsualViolations) : 0;
-  f[11] = m.free_space.num_matches >= kFewMatches
-              ? beyond(m.free_space.num_opposed, m.free_space.num_matches, kUsualOpposed)
-              : 0;
+  f[10] = std::max(violations(m.free_space), violations(m.free_space_across));
+  f[11] = std::max(opposed(m.free_space), opposed(m.free_space_across));
   f[12] = space ? 0 : 1;
   f[13] = best;
   f[14] = mean;

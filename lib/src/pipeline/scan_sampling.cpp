@@ -17,6 +17,7 @@ namespace {
 
 constexpr std::size_t kMinPoints = 3;
 constexpr double kSupportShare = 0.5;  // of the coverage: several points of a ring for each to the next ring
+constexpr double kNearlyAll = 0.7;
 
 Eigen::Vector3d median_point(const Points& points) {
   std::vector<double> values(points.size());
@@ -69,6 +70,9 @@ NormalEstimate normals_of_surfaces(const Scan& scan, const NeighborIndex& index,
   const Points& points = scan.cloud.points;
   if (!(scan.coverage_m > 0)) return estimate_normals(points, index, {}, num_threads);
   const Points even = voxel_downsample({points, {}}, kSupportShare * scan.coverage_m).points;
+  if (static_cast<double>(even.size()) > kNearlyAll * static_cast<double>(points.size())) {
+    return estimate_normals(points, index, {}, num_threads);  // they are even as they are
+  }
   const NeighborIndex even_index(even);
   const NormalEstimate planes = estimate_normals(even, even_index, {}, num_threads);
   NormalEstimate out{Points(points.size()), std::vector<double>(points.size()), std::vector<double>(points.size())};

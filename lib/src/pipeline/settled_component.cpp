@@ -110,7 +110,6 @@ class Settling {
       const LinkMeasurements& m = link_measurements_[k];
       neighbors.emplace_back(-m.evidence.overlap, a == scan ? b : a);
       out.free_space += m.free_space;
-      out.link_log_odds.push_back(pose_log_odds(link_features(m, std::nullopt, hypotheses_.reference())));
     }
     if (neighbors.empty()) return out;
     std::sort(neighbors.begin(), neighbors.end());
@@ -136,6 +135,15 @@ class Settling {
     m.lead = weakest->lead();
     m.support = weakest->support;
     m.num_moved = weakest->moved.size();
+    for (std::size_t k = 0; k < out_.pairs.size(); ++k) {
+      const auto moves = [&](std::size_t i) {
+        return std::binary_search(weakest->moved.begin(), weakest->moved.end(), i);
+      };
+      if (moves(out_.pairs[k].first) == moves(out_.pairs[k].second)) continue;
+      const LinkMeasurements& link = link_measurements_[k];
+      m.link_log_odds.push_back(pose_log_odds(link_features(link, std::nullopt, hypotheses_.reference())));
+      m.free_space_across += link.free_space;
+    }
     if (!weakest->other_motion || weakest->other_support <= 0) return;
     const Eigen::Isometry3d& T = *out_.component.T_reference_scan[scan];
     m.other_distance = rms_displacement(T.inverse() * *weakest->other_motion * T, scans_[scan].moments);

@@ -21,7 +21,10 @@ struct ScanMeasurements {
   double support = 0;                    ///< the same, against none
   std::optional<double> other_distance;  ///< [m] rms distance to that other place; none: nothing leads elsewhere
   std::size_t num_moved = 1;             ///< scans that would move with it
-  std::vector<double> link_log_odds;     ///< of each pair it overlaps in, at the final poses
+  /// Of the pairs that overlap across the weakest hold, at the final poses: those of the scan, or of the group that
+  /// would move with it. What holds within the group says nothing of its place.
+  std::vector<double> link_log_odds;
+  FreeSpaceEvidence free_space_across;  ///< of the same pairs
 };
 
 /// What scans of a component usually show.
