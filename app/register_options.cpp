@@ -77,7 +77,7 @@ struct Choices {
         solver(kSolvers.name(p.lp.lp.solver)),
         outliers(kOutlierMethods.name(p.outliers.method)),
         refinement(kRefinements.name(p.refinement.method)),
-        formulation(kFormulations.name(p.placement.formulation)),
+        formulation(kFormulations.name(p.formulation)),
         merge_order(kMergeOrders.name(p.merge_order)) {}
 
   void apply(PipelineOptions& p) const {
@@ -85,7 +85,7 @@ struct Choices {
     p.lp.lp.solver = kSolvers.parse(solver);
     p.outliers.method = kOutlierMethods.parse(outliers);
     p.refinement.method = kRefinements.parse(refinement);
-    p.placement.formulation = kFormulations.parse(formulation);
+    p.formulation = kFormulations.parse(formulation);
     p.merge_order = kMergeOrders.parse(merge_order);
   }
 };
@@ -156,19 +156,19 @@ po::options_description configurable(RegisterOptions& o, Choices& c) {
       "what a step of the robust profile minimises: plane or point (6 parameters), entries (the paper's 12), squares "
       "(least squares, no simplex)")("lp.max-pivots", value(p.lp.lp.max_pivots), "most simplex pivots of one program")(
       "lp.max-seconds", value(p.lp.lp.max_seconds), "[s] longest time of one program")(
-      "lp.coarse-points", value(p.placement.coarse_points), "points of a scan in the coarse programs")(
-      "lp.fine-points", value(p.placement.fine_points), "points of a scan in the fine programs")(
-      "lp.held-out-points", value(p.placement.held_out_points), "points kept from every fit, for verification")(
-      "refinement", value(c.refinement), "none, descent, annealing, both; auto: both in the paper's profile, none in robust")(
+      "lp.coarse-points", value(p.samples.coarse_points), "points of a scan in the coarse programs")(
+      "lp.fine-points", value(p.samples.fine_points), "points of a scan in the fine programs")(
+      "lp.held-out-points", value(p.samples.held_out_points), "points kept from every fit, for verification")(
+      "refinement", value(c.refinement),
+      "none, descent, annealing, both; auto: both in the paper's profile, none in robust")(
       "refinement.points", value(p.refinement.points), "points the cost is taken over, and as many held out")(
       "descent.steps", value(p.refinement.descent_steps), "most steps of the descent")(
       "annealing.steps", value(p.refinement.annealing_steps), "steps of the annealing after the simplex")(
       "annealing.initial-temperature", value(p.refinement.initial_temperature), "in units of the cost at the start")(
       "annealing.final-temperature", value(p.refinement.final_temperature),
-      "the same, at the end; cooling is geometric")("adjustment.lp-steps", value(p.placement.adjustment_lp_steps),
+      "the same, at the end; cooling is geometric")("adjustment.lp-steps", value(p.adjustment.lp_steps),
                                                     "joint linear programs over all poses; 0: none")(
-      "adjustment.steps", value(p.placement.adjustment_steps),
-      "joint least-squares steps of all poses after them; 0: none");
+      "adjustment.steps", value(p.adjustment.steps), "joint least-squares steps of all poses after them; 0: none");
   main.add(outlier_options(p, c)).add(sampling_options(p)).add(placement);
   return main;
 }

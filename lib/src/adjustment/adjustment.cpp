@@ -30,22 +30,21 @@ std::size_t lp_matches_of_link(std::size_t num_links, LpSolver solver) {
 class Adjustment {
  public:
   Adjustment(const std::vector<PreparedScan>& scans, const ScanPairs& pairs, std::size_t reference,
-             const PipelineOptions& options, const RunContext& context,
-             std::vector<Eigen::Isometry3d>& T_reference_scan)
+             const L1FitOptions& lp, const RunContext& context, std::vector<Eigen::Isometry3d>& T_reference_scan)
       : scans_(scans),
         pairs_(pairs),
         reference_(reference),
-        options_(options),
+        lp_(lp),
         context_(context),
         T_reference_scan_(T_reference_scan) {}
 
   void lp_step(double gate_m) {
-    const std::size_t most = lp_matches_of_link(2 * pairs_.size(), options_.lp.lp.solver);
+    const std::size_t most = lp_matches_of_link(2 * pairs_.size(), lp_.lp.solver);
     const std::vector<JointLink> links = thinned(match(gate_m), most);
     const std::vector<TwistFrame> frames = scan_frames(scans_, T_reference_scan_);
     JointLpOptions lp_options;
-    lp_options.lp = options_.lp.lp;
-    lp_options.tie_breaking = options_.lp.tie_breaking;
+    lp_options.lp = lp_.lp;
+    lp_options.tie_breaking = lp_.tie_breaking;
     lp_options.seed = context_.seed;
     const JointLpResult lp = solve_joint_lp(frames, reference_, links, lp_options);
     record_.lp += LpFigures{1, lp.pivots, lp.objective_m, lp.duality_gap, lp.seconds};
@@ -114,7 +113,7 @@ class Adjustment {
   const std::vector<PreparedScan>& scans_;
   const ScanPairs& pairs_;
   std::size_t reference_;
-  const PipelineOptions& options_;
+  const L1FitOptions& lp_;
   const RunContext& context_;
   std::vector<Eigen::Isometry3d>& T_reference_scan_;
   AdjustmentRecord record_;
@@ -138,7 +137,7 @@ ScanPairs overlapping_pairs(const std::vector<PreparedScan>& scans,
       const PyramidLevel& level_a = scans[a].pyramid.level(1);
       const PyramidLevel& level_b = scans[b].pyramid.level(1);
       shares[i] = overlap({level_a.cloud.points, level_a.index}, {level_b.cloud.points, level_b.index},
-                                   T_reference_scan[a].inverse() * T_reference_scan[b], level_a.voxel_size_m);
+                          T_reference_scan[a].inverse() * T_reference_scan[b], level_a.voxel_size_m);
     }
   });
   std::vector<std::size_t> order(candidates.size());
@@ -161,10 +160,10 @@ ScanPairs overlapping_pairs(const std::vector<PreparedScan>& scans,
 }
 
 AdjustmentRecord adjust_poses(const std::vector<PreparedScan>& scans, const ScanPairs& pairs, std::size_t reference,
-                              const Resolutions& resolutions, const PipelineOptions& options, const RunContext& context,
-                              std::vector<Eigen::Isometry3d>& T_reference_scan) {
-  Adjustment adjustment(scans, pairs, reference, options, context, T_reference_scan);
-  const int lp_steps = options.placement.adjustment_lp_steps, steps = options.placement.adjustment_steps;
+                              const Resolutions& resolutions, const AdjustmentOptions& options, const L1FitOptions& lp,
+                              const RunContext& context, std::vector<Eigen::Isometry3d>& T_reference_scan) {
+  Adjustment adjustment(scans, pairs, reference, lp, context, T_reference_scan);
+  const int lp_steps = options.lp_steps, steps = options.steps;
   const double first_m = kGateInVoxels * resolutions.coarse_m, last_m = kGateInVoxels * resolutions.fine_m;
   const auto gate_m = [&](double share) { return first_m * std::pow(last_m / first_m, std::min(1.0, share)); };
   int done = 0;

@@ -5,10 +5,11 @@
 #include <vector>
 
 #include "adjustment/joint_matches.hpp"
-#include "pipeline/prepared_scan.hpp"
+#include "scans/prepared_scan.hpp"
+#include "tcm_icp/adjustment/adjustment_options.hpp"
+#include "tcm_icp/adjustment/adjustment_record.hpp"
 #include "tcm_icp/core/run_context.hpp"
-#include "tcm_icp/pipeline/pipeline_options.hpp"
-#include "tcm_icp/pipeline/pipeline_result.hpp"
+#include "tcm_icp/registration/l1_fit.hpp"
 
 namespace tcm_icp {
 
@@ -19,14 +20,14 @@ ScanPairs overlapping_pairs(const std::vector<PreparedScan>& scans,
                             double min_overlap, int num_threads);
 
 /// All poses at once, the reference fixed, over all pairs in both directions; neighbours are found anew before each
-/// step at the fine resolution. First options.placement.adjustment_lp_steps linear programs (solve_joint_lp), which a
+/// step at the fine resolution. First options.lp_steps linear programs (solve_joint_lp), which a
 /// minority of wrong matches does not move; the gate shrinks from twice the coarse to twice the fine resolution. Then
 /// adjustment_steps of Gauss-Newton with Huber's weights and sparse Cholesky, which are more exact where the errors are
 /// nearly normal. Each scan's error is shared among its links, so it does not pile up along a chain as in merging one
 /// by one.
 /// Cost: one nearest-neighbour query a point and pair and step, and the programs.
 AdjustmentRecord adjust_poses(const std::vector<PreparedScan>& scans, const ScanPairs& pairs, std::size_t reference,
-                              const Resolutions& resolutions, const PipelineOptions& options, const RunContext& context,
-                              std::vector<Eigen::Isometry3d>& T_reference_scan);
+                              const Resolutions& resolutions, const AdjustmentOptions& options, const L1FitOptions& lp,
+                              const RunContext& context, std::vector<Eigen::Isometry3d>& T_reference_scan);
 
 }  // namespace tcm_icp

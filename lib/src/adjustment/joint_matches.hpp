@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "pipeline/prepared_scan.hpp"
+#include "scans/prepared_scan.hpp"
 #include "tcm_icp/registration/joint_links.hpp"
 
 namespace tcm_icp {

@@ -5,8 +5,9 @@
 #include <vector>
 
 #include "adjustment/joint_matches.hpp"
-#include "pipeline/prepared_scan.hpp"
-#include "tcm_icp/pipeline/pipeline_result.hpp"
+#include "scans/prepared_scan.hpp"
+#include "tcm_icp/links/link_record.hpp"
+#include "tcm_icp/registration/pose_covariance.hpp"
 
 namespace tcm_icp {
 

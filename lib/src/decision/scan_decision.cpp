@@ -24,9 +24,7 @@ constexpr std::size_t kFewAcross = 30, kFewMatches = 100, kFewAgreeing = 30;
 
 double log_share(double share) { return std::log(std::max(share, kLeastShare)); }
 
-double log_ratio(double a, double b) {
-  return b > 0 ? std::log(std::clamp(a / b, 1 / kMostRatio, kMostRatio)) : 0;
-}
+double log_ratio(double a, double b) { return b > 0 ? std::log(std::clamp(a / b, 1 / kMostRatio, kMostRatio)) : 0; }
 
 double beyond(std::size_t part, std::size_t all, double usual) {
   const auto count = static_cast<double>(part);

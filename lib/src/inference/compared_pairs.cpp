@@ -76,8 +76,7 @@ std::vector<Eigen::Isometry3d> PairGraph::poses_of(std::size_t scan, const Compo
     const std::size_t other = pair.a == scan ? pair.b : pair.a;
     if (!component.has(other)) continue;
     for (const PoseHypothesis& h : pair.hypotheses) {
-      const Eigen::Isometry3d T =
-          *component.T_reference_scan[other] * (pair.a == scan ? h.T_a_b.inverse() : h.T_a_b);
+      const Eigen::Isometry3d T = *component.T_reference_scan[other] * (pair.a == scan ? h.T_a_b.inverse() : h.T_a_b);
       const bool known =
           std::any_of(out.begin(), out.end(), [&](const Eigen::Isometry3d& U) { return same_pose(scan, U, T); });
       if (!known) out.push_back(T);

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "tcm_icp/core/rigid_transform.hpp"
-#include "tcm_icp/pipeline/pipeline_options.hpp"
+#include "tcm_icp/inference/inference_options.hpp"
 
 namespace tcm_icp {
 

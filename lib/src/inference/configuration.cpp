@@ -129,7 +129,8 @@ std::vector<Start> strongest(const PairGraph& graph, const std::vector<bool>& op
       if (h.log_odds > 0) starts.push_back({h.log_odds, &pair, &h});
     }
   }
-  std::stable_sort(starts.begin(), starts.end(), [](const Start& x, const Start& y) { return x.log_odds > y.log_odds; });
+  std::stable_sort(starts.begin(), starts.end(),
+                   [](const Start& x, const Start& y) { return x.log_odds > y.log_odds; });
   return starts;
 }
 

@@ -11,8 +11,8 @@ namespace tcm_icp {
 /// likelier the hypotheses are with these poses than if all of them were wrong.
 double log_likelihood(const PairGraph& graph, const Component& component);
 
-/// Components of the set, the largest first, each the likeliest poses found among the scans that are left: grown scan by
-/// scan from the strongest hypotheses, then improved by moves of single scans and of groups to other poses that
+/// Components of the set, the largest first, each the likeliest poses found among the scans that are left: grown scan
+/// by scan from the strongest hypotheses, then improved by moves of single scans and of groups to other poses that
 /// hypotheses lead to, as long as the likelihood grows. A scan that more speaks against than for is in none. The
 /// reference is the member with the most support.
 /// Cost: about max_starts times scans, pairs of a scan, and poses of a scan squared.

@@ -49,9 +49,8 @@ void HypothesisSet::score() {
   for (auto& [pair, hypotheses] : pairs_) {
     for (auto& h : hypotheses) {
       h.second_best_ratio = second_best_ratio(h, hypotheses, moments_[pair.second], same_m());
-      h.log_odds = hypothesis_log_odds(
-          link_features(h.measurements,
-                        SearchMeasurements{h.candidate.method, h.candidate.margin, h.second_best_ratio}, reference_));
+      h.log_odds = hypothesis_log_odds(link_features(
+          h.measurements, SearchMeasurements{h.candidate.method, h.candidate.margin, h.second_best_ratio}, reference_));
     }
     std::stable_sort(hypotheses.begin(), hypotheses.end(),
                      [](const LinkHypothesis& x, const LinkHypothesis& y) { return x.log_odds > y.log_odds; });

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "links/measure_link.hpp"
-#include "pipeline/scan_sight.hpp"
+#include "scans/scan_sight.hpp"
 #include "tcm_icp/core/even_sample.hpp"
 #include "tcm_icp/registration/alignment_objective.hpp"
 #include "tcm_icp/registration/lp_registration.hpp"
@@ -57,11 +57,11 @@ std::vector<PoseCandidate> in_order_of_promise(const PreparedScan& target, const
 }
 
 std::optional<LinkHypothesis> fit_candidate(const PreparedScan& target, const PreparedScan& source,
-                                            const PoseCandidate& candidate, const PipelineOptions& options) {
+                                            const PoseCandidate& candidate, const LinkSearchOptions& options) {
   if (hopeless(target, source, candidate)) return std::nullopt;
   const double voxel_m = target.pyramid.level(0).voxel_size_m;
   LpRegistrationOptions lp;
-  lp.formulation = options.placement.formulation;
+  lp.formulation = options.formulation;
   lp.lp = options.lp;
   lp.initial_gate_m = kFirstDistance * voxel_m;
   lp.final_gate_m = kLastDistance * voxel_m;

@@ -9,10 +9,10 @@ namespace tcm_icp {
 namespace {
 
 constexpr double kBestQuantile = 0.95, kBetterShare = 0.1;
-constexpr double kLeastShare = 0.01;     // less overlaps or agrees by chance
-constexpr double kMostLeft = 2;          // a slide that doubles the agreement: the pose is no optimum
-constexpr double kMostRatio = 10;        // of two measurements that are compared
-constexpr std::size_t kFewAcross = 30;   // points: with fewer a share is chance
+constexpr double kLeastShare = 0.01;    // less overlaps or agrees by chance
+constexpr double kMostLeft = 2;         // a slide that doubles the agreement: the pose is no optimum
+constexpr double kMostRatio = 10;       // of two measurements that are compared
+constexpr std::size_t kFewAcross = 30;  // points: with fewer a share is chance
 constexpr std::size_t kFewMatches = 100;
 // Violations and opposite sides that noise and thin things make at right poses, of which more begins to tell.
 constexpr double kUsualViolations = 0.004, kUsualOpposed = 0.03;
@@ -42,7 +42,8 @@ SetReference SetReference::of(double voxel_m, double noise_m, const std::vector<
     order.push_back(&h.evidence);
   }
   set.best_inlier_share = quantile(shares, kBestQuantile);
-  std::stable_sort(order.begin(), order.end(), [](const auto* x, const auto* y) { return x->consensus() > y->consensus(); });
+  std::stable_sort(order.begin(), order.end(),
+                   [](const auto* x, const auto* y) { return x->consensus() > y->consensus(); });
   std::vector<double> residuals_m;
   const auto better = static_cast<std::size_t>(std::ceil(kBetterShare * static_cast<double>(order.size())));
   for (std::size_t i = 0; i < better; ++i) residuals_m.push_back(order[i]->median_residual_m);

@@ -1,7 +1,7 @@
 #include "links/measure_link.hpp"
 
-#include "pipeline/scan_sight.hpp"
 #include "links/verification_at.hpp"
+#include "scans/scan_sight.hpp"
 #include "tcm_icp/core/even_sample.hpp"
 
 namespace tcm_icp {
@@ -23,8 +23,8 @@ LinkMeasurements measure_link(const PreparedScan& a, const PreparedScan& b, cons
   const AlignmentEvidence b_in_a = one_way(a, b, T_a_b, false), a_in_b = one_way(b, a, T_b_a, false);
   const bool first = b_in_a.overlap >= a_in_b.overlap;
   const AlignmentEvidence& other = first ? a_in_b : b_in_a;
-  return {first ? one_way(a, b, T_a_b, true) : one_way(b, a, T_b_a, true), other.overlap,
-                       other.inlier_share, free_space(a, b, T_a_b)};
+  return {first ? one_way(a, b, T_a_b, true) : one_way(b, a, T_b_a, true), other.overlap, other.inlier_share,
+          free_space(a, b, T_a_b)};
 }
 
 }  // namespace tcm_icp

@@ -3,7 +3,7 @@
 
 #include <Eigen/Geometry>
 
-#include "pipeline/prepared_scan.hpp"
+#include "scans/prepared_scan.hpp"
 #include "tcm_icp/links/link_measurements.hpp"
 
 namespace tcm_icp {

@@ -41,13 +41,13 @@ enum class Tried : char { kNothing, kHeightMaps, kFeatures, kSlides };
 }  // namespace
 
 struct PairSearch::Impl {
-  Impl(const std::vector<PreparedScan>& all, const PipelineOptions& o, const RunContext& c)
+  Impl(const std::vector<PreparedScan>& all, const LinkSearchOptions& o, const RunContext& c)
       : scans(all), options(o), context(c), tried(all.size() * all.size(), Tried::kNothing) {}
 
   const std::vector<PreparedScan>& scans;
-  const PipelineOptions& options;
+  const LinkSearchOptions& options;
   const RunContext& context;
-  std::vector<Tried> tried;  // by pair, a * n + b
+  std::vector<Tried> tried;             // by pair, a * n + b
   std::vector<PairScreening> screened;  // by pair, the same
   std::vector<std::vector<std::size_t>> partners;
   std::vector<std::size_t> reach;  // how many of them were asked for, of each scan
@@ -225,7 +225,7 @@ struct PairSearch::Impl {
   }
 };
 
-PairSearch::PairSearch(const std::vector<PreparedScan>& scans, const PipelineOptions& options,
+PairSearch::PairSearch(const std::vector<PreparedScan>& scans, const LinkSearchOptions& options,
                        const RunContext& context)
     : impl_(new Impl(scans, options, context)) {}
 PairSearch::~PairSearch() = default;

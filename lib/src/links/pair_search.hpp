@@ -7,16 +7,16 @@
 #include <vector>
 
 #include "links/hypotheses.hpp"
-#include "pipeline/prepared_scan.hpp"
+#include "links/link_fit.hpp"
+#include "scans/prepared_scan.hpp"
 #include "tcm_icp/core/run_context.hpp"
-#include "tcm_icp/pipeline/pipeline_options.hpp"
 
 namespace tcm_icp {
 
 class PairSearch {
  public:
   /// Keeps references: all three must outlive the search.
-  PairSearch(const std::vector<PreparedScan>& scans, const PipelineOptions& options, const RunContext& context);
+  PairSearch(const std::vector<PreparedScan>& scans, const LinkSearchOptions& options, const RunContext& context);
   ~PairSearch();
 
   /// Fits the pairs of scans with initial poses from those, where they overlap there.

@@ -14,9 +14,9 @@ constexpr double kFirstDistance = 4, kMiddleDistance = 2, kLastDistance = 1.5;
 constexpr int kMaxLpSolves = 20;  // most fits settle within 15; others go round in circles of nearly equal poses
 constexpr std::size_t kMinPoints = 30;
 
-LpRegistrationOptions lp_options(const PipelineOptions& options, double first_m, double last_m) {
+LpRegistrationOptions lp_options(const MergeOptions& options, double first_m, double last_m) {
   LpRegistrationOptions lp;
-  lp.formulation = options.placement.formulation;
+  lp.formulation = options.formulation;
   lp.lp = options.lp;
   lp.initial_gate_m = first_m;
   lp.final_gate_m = last_m;
@@ -25,7 +25,7 @@ LpRegistrationOptions lp_options(const PipelineOptions& options, double first_m,
 }
 
 RegistrationResult solve(const PreparedScan& scan, const ScanPyramid& s, const Eigen::Isometry3d& T_init,
-                         const PipelineOptions& options) {
+                         const MergeOptions& options) {
   const double voxel_m = s.level(0).voxel_size_m;
   const RegistrationResult coarse = register_lp(
       scan.coarse_sample, s, T_init, lp_options(options, kFirstDistance * voxel_m, kMiddleDistance * voxel_m));
@@ -85,7 +85,7 @@ AnnealingOptions annealing_options(const RefinementOptions& options, double firs
 }
 
 Eigen::Isometry3d fit_to_cloud(const PreparedScan& scan, const ScanPyramid& s, const Eigen::Isometry3d& T_init,
-                               const PipelineOptions& options, Rng& rng, MergeRecord& record) {
+                               const MergeOptions& options, Rng& rng, MergeRecord& record) {
   if (std::min(scan.coarse_sample.size(), scan.fit_sample.size()) < kMinPoints) {
     record.simplex.termination = Termination::kTooFewCorrespondences;
     return T_init;

@@ -1,6 +1,6 @@
 #include "merging/merged_cloud.hpp"
 
-#include "pipeline/prepared_scan.hpp"
+#include "scans/prepared_scan.hpp"
 #include "tcm_icp/core/rigid_transform.hpp"
 #include "tcm_icp/core/voxel_sampler.hpp"
 

@@ -24,7 +24,7 @@ bool joined_to(const PairGraph& graph, std::size_t scan, const Component& compon
 }  // namespace
 
 std::vector<MergeRecord> merge_in_tcm_order(const std::vector<PreparedScan>& scans, const PairGraph& graph,
-                                            const PipelineOptions& options, const RunContext& context,
+                                            const MergeOptions& options, const RunContext& context,
                                             Component& component) {
   MergedCloud s(scans[component.reference].pyramid.level(0).voxel_size_m);
   s.add(scans[component.reference].pyramid.level(0).cloud, Eigen::Isometry3d::Identity());

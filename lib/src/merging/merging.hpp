@@ -4,10 +4,10 @@
 #include <vector>
 
 #include "inference/compared_pairs.hpp"
-#include "pipeline/prepared_scan.hpp"
+#include "scans/prepared_scan.hpp"
 #include "tcm_icp/core/run_context.hpp"
-#include "tcm_icp/pipeline/pipeline_options.hpp"
-#include "tcm_icp/pipeline/pipeline_result.hpp"
+#include "tcm_icp/merging/merge_options.hpp"
+#include "tcm_icp/merging/merge_record.hpp"
 
 namespace tcm_icp {
 
@@ -16,7 +16,7 @@ namespace tcm_icp {
 /// inference has looked at more than S. Poses of `component` follow the fits.
 /// @return  a record for each member but the reference, in the order of merging
 std::vector<MergeRecord> merge_in_tcm_order(const std::vector<PreparedScan>& scans, const PairGraph& graph,
-                                            const PipelineOptions& options, const RunContext& context,
+                                            const MergeOptions& options, const RunContext& context,
                                             Component& component);
 
 }  // namespace tcm_icp

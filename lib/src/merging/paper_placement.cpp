@@ -13,9 +13,8 @@ constexpr double kMarginalStep = 0.01;
 
 }  // namespace
 
-Eigen::Isometry3d place_scan_as_printed(const PreparedScan& scan, const ScanPyramid& s,
-                                        const Eigen::Isometry3d& T_init, const PipelineOptions& options, Rng& rng,
-                                        MergeRecord& record) {
+Eigen::Isometry3d place_scan_as_printed(const PreparedScan& scan, const ScanPyramid& s, const Eigen::Isometry3d& T_init,
+                                        const MergeOptions& options, Rng& rng, MergeRecord& record) {
   const PyramidLevel& target = s.level(0);
   PaperRegistrationOptions paper;
   paper.lp = options.lp;

@@ -9,14 +9,14 @@
 namespace tcm_icp {
 namespace {
 
-bool uses_paper_tcm(const PipelineOptions& options) {
-  if (options.merge_order == MergeOrder::kPaperTcm) return true;
-  return options.profile == Profile::kPaper && options.merge_order != MergeOrder::kRobustTcm;
+bool uses_paper_tcm(const MergeOptions& options) {
+  if (options.order == MergeOrder::kPaperTcm) return true;
+  return options.paper_tcm && options.order == MergeOrder::kTcm;
 }
 
 }  // namespace
 
-TcmOrder::TcmOrder(const std::vector<PreparedScan>& scans, const PipelineOptions& options, const RunContext& context)
+TcmOrder::TcmOrder(const std::vector<PreparedScan>& scans, const MergeOptions& options, const RunContext& context)
     : scans_(scans), options_(options), context_(context), clouds_(scans.size()) {}
 
 std::vector<TcmTerms> TcmOrder::measure(const ScanPyramid& s, const std::vector<MergeChoice>& choices) {
@@ -44,12 +44,12 @@ std::vector<TcmTerms> TcmOrder::measure(const ScanPyramid& s, const std::vector<
 TcmOrder::Next TcmOrder::next(const ScanPyramid& s, const std::vector<MergeChoice>& choices) {
   const std::vector<TcmTerms> terms = measure(s, choices);
   std::size_t position = 0;
-  if (options_.merge_order == MergeOrder::kFile) {
+  if (options_.order == MergeOrder::kFile) {
     position = 0;
-  } else if (options_.merge_order == MergeOrder::kRandom) {
+  } else if (options_.order == MergeOrder::kRandom) {
     Rng rng = make_stream(context_.seed, "merge order", std::to_string(num_random_++));
     position = uniform_index(rng, choices.size());
-  } else if (options_.merge_order == MergeOrder::kOverlap) {
+  } else if (options_.order == MergeOrder::kOverlap) {
     const PyramidLevel& level = s.level(1);
     double most = -1;
     for (std::size_t k = 0; k < choices.size(); ++k) {

@@ -6,9 +6,9 @@
 #include <optional>
 #include <vector>
 
-#include "pipeline/prepared_scan.hpp"
+#include "scans/prepared_scan.hpp"
 #include "tcm_icp/core/run_context.hpp"
-#include "tcm_icp/pipeline/pipeline_options.hpp"
+#include "tcm_icp/merging/merge_options.hpp"
 #include "tcm_icp/tcm/merge_order.hpp"
 #include "tcm_icp/tcm/robust_tcm.hpp"
 
@@ -23,7 +23,7 @@ struct MergeChoice {
 class TcmOrder {
  public:
   /// Keeps references: all three must outlive it.
-  TcmOrder(const std::vector<PreparedScan>& scans, const PipelineOptions& options, const RunContext& context);
+  TcmOrder(const std::vector<PreparedScan>& scans, const MergeOptions& options, const RunContext& context);
 
   struct Next {
     std::size_t position = 0;  ///< among the choices
@@ -38,7 +38,7 @@ class TcmOrder {
   std::vector<TcmTerms> measure(const ScanPyramid& s, const std::vector<MergeChoice>& choices);
 
   const std::vector<PreparedScan>& scans_;
-  const PipelineOptions& options_;
+  const MergeOptions& options_;
   const RunContext& context_;
   std::vector<std::optional<RobustTcmCloud>> clouds_;  ///< of the scans, once they are asked for
   std::optional<RobustTcmCloud> s_cloud_;

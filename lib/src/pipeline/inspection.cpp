@@ -2,8 +2,8 @@
 
 #include <limits>
 
+#include "pipeline/scan_set.hpp"
 #include "report/report_parts.hpp"
-#include "scan_set.hpp"
 #include "tcm_icp/core/error.hpp"
 #include "tcm_icp/core/parallel.hpp"
 
@@ -73,7 +73,7 @@ Inspection inspect_scans(const std::vector<std::filesystem::path>& paths, const 
 
   const Resolutions resolutions = choose_resolutions(sampled, options.sampling, context.num_threads);
   const auto T_common_local = values_of(initial_local_poses(initial_poses, sampled, true));
-  const auto scans = prepare_scans(sampled, resolutions, options.placement, context);
+  const auto scans = prepare_scans(sampled, resolutions, options.samples, context);
   ScanComparison& comparison = out.comparison.emplace();
   comparison.coarse_voxel_m = resolutions.coarse_m;
   comparison.graph = compare_scans(scans, T_common_local, options, context);

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <limits>
 
-#include "prepared_scan.hpp"
-#include "scan_set.hpp"
-#include "stage_clock.hpp"
+#include "pipeline/scan_set.hpp"
+#include "pipeline/stage_clock.hpp"
+#include "scans/prepared_scan.hpp"
 #include "tcm_icp/baselines/spanning_tree.hpp"
 #include "tcm_icp/core/statistics.hpp"
 #include "tcm_icp/core/voxel_sampler.hpp"

@@ -62,7 +62,7 @@ void run_paper_pipeline(const PipelineInput& in, PipelineResult& result) {
   result.coarse_voxel_m = resolutions.coarse_m;
   result.fine_voxel_m = resolutions.fine_m;
   const auto T_init = values_of(initial_local_poses(in.initial_poses, in.sampled, true));  // as they lie
-  const auto scans = prepare_scans(in.sampled, resolutions, in.options.placement, in.context);
+  const auto scans = prepare_scans(in.sampled, resolutions, in.options.samples, in.context);
 
   in.clock.begin("link");  // lines 2 and 3: correspondence graph, reference
   result.graph = compare_scans(scans, T_init, in.options, in.context);
@@ -72,7 +72,8 @@ void run_paper_pipeline(const PipelineInput& in, PipelineResult& result) {
   in.clock.begin("merge");
   MergedCloud s(resolutions.coarse_m);
   s.add(scans[reference].pyramid.level(0).cloud, Eigen::Isometry3d::Identity());
-  TcmOrder order(scans, in.options, in.context);
+  const MergeOptions merging = in.options.merging();
+  TcmOrder order(scans, merging, in.context);
   std::vector<Eigen::Isometry3d> T(n, Eigen::Isometry3d::Identity());
   std::vector<bool> merged(n, false);
   merged[reference] = true;
@@ -90,7 +91,7 @@ void run_paper_pipeline(const PipelineInput& in, PipelineResult& result) {
     record.scan = q.scan;
     record.tcm = next.terms;
     Rng rng = make_stream(in.context.seed, "placement", std::to_string(scans[q.scan].share));
-    T[q.scan] = place_scan_as_printed(scans[q.scan], cloud, q.T_reference_scan, in.options, rng, record);  // 6, 7
+    T[q.scan] = place_scan_as_printed(scans[q.scan], cloud, q.T_reference_scan, merging, rng, record);  // 6, 7
     if (record.accepted) {
       s.add(scans[q.scan].pyramid.level(0).cloud, T[q.scan]);  // line 8
       order.grown();

@@ -26,10 +26,7 @@ PipelineResult Pipeline::run(const std::vector<std::filesystem::path>& paths, co
   check_paths(paths, initial_poses);
   const std::size_t named = options_.reference.empty() ? 0 : find_scan(paths, options_.reference);
   const bool paper = options_.profile == Profile::kPaper;
-  PipelineOptions options = options_;
-  if (options.refinement.method == Refinement::kAuto) {
-    options.refinement.method = paper ? Refinement::kDescentThenAnnealing : Refinement::kNone;
-  }
+  const PipelineOptions& options = options_;
   PipelineResult result;
   StageClock clock(result.stages);
   clock.begin("read and sample");
@@ -37,8 +34,7 @@ PipelineResult Pipeline::run(const std::vector<std::filesystem::path>& paths, co
       read_scans(paths, options, context, paper ? ScanDetail::kNormals : ScanDetail::kLinePieces);
   // Who asks for the order of the list gets it, and so does the paper, whose reference is the middle one of equals.
   const bool as_listed = paper || options.merge_order == MergeOrder::kFile;
-  const std::vector<std::size_t> order =
-      as_listed ? order_of_list(paths.size()) : order_by_content(sampled, paths);
+  const std::vector<std::size_t> order = as_listed ? order_of_list(paths.size()) : order_by_content(sampled, paths);
   sampled = in_order(std::move(sampled), order);
   std::vector<std::string> files;
   for (const auto& s : sampled) {
@@ -46,8 +42,7 @@ PipelineResult Pipeline::run(const std::vector<std::filesystem::path>& paths, co
     result.scans.push_back(summarize(s));
   }
   const InitialPoses guesses = in_order(initial_poses, order);
-  result.reference =
-      static_cast<std::size_t>(std::find(order.begin(), order.end(), named) - order.begin());
+  result.reference = static_cast<std::size_t>(std::find(order.begin(), order.end(), named) - order.begin());
   (paper ? run_paper_pipeline : run_robust_pipeline)({sampled, files, guesses, options, context, clock}, result);
   clock.end();
   restore_order(order, result);

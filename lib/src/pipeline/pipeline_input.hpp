@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/scan_sampling.hpp"
 #include "pipeline/stage_clock.hpp"
+#include "scans/scan_sampling.hpp"
 #include "tcm_icp/core/run_context.hpp"
 #include "tcm_icp/pipeline/pipeline.hpp"
 

@@ -22,12 +22,15 @@ void SamplingOptions::validate() const {
           "sampling max_surface_variation must be between 0 and 1/3", max_surface_variation);
 }
 
-void PlacementOptions::validate() const {
-  require(coarse_points >= 100, "placement coarse_points must be at least 100", coarse_points);
-  require(fine_points >= 100, "placement fine_points must be at least 100", fine_points);
-  require(held_out_points >= 100, "placement held_out_points must be at least 100", held_out_points);
-  require(adjustment_lp_steps >= 0, "placement adjustment_lp_steps must be at least 0", adjustment_lp_steps);
-  require(adjustment_steps >= 0, "placement adjustment_steps must be at least 0", adjustment_steps);
+void SampleSizes::validate() const {
+  require(coarse_points >= 100, "samples coarse_points must be at least 100", coarse_points);
+  require(fine_points >= 100, "samples fine_points must be at least 100", fine_points);
+  require(held_out_points >= 100, "samples held_out_points must be at least 100", held_out_points);
+}
+
+void AdjustmentOptions::validate() const {
+  require(lp_steps >= 0, "adjustment lp_steps must be at least 0", lp_steps);
+  require(steps >= 0, "adjustment steps must be at least 0", steps);
 }
 
 void RefinementOptions::validate() const {
@@ -45,9 +48,19 @@ void PipelineOptions::validate() const {
   outliers.validate();
   tcm.validate();
   lp.validate();
-  placement.validate();
+  samples.validate();
+  adjustment.validate();
   refinement.validate();
   decision.validate();
+}
+
+MergeOptions PipelineOptions::merging() const {
+  const bool paper = profile == Profile::kPaper;
+  MergeOptions out{merge_order, paper, tcm, formulation, lp, refinement};
+  if (refinement.method == Refinement::kAuto) {
+    out.refinement.method = paper ? Refinement::kDescentThenAnnealing : Refinement::kNone;
+  }
+  return out;
 }
 
 }  // namespace tcm_icp

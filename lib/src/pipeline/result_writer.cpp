@@ -2,8 +2,8 @@
 
 #include <fstream>
 
+#include "pipeline/stage_clock.hpp"
 #include "report/report_html.hpp"
-#include "stage_clock.hpp"
 #include "tcm_icp/core/error.hpp"
 #include "tcm_icp/core/parallel.hpp"
 #include "tcm_icp/io/output_folder.hpp"

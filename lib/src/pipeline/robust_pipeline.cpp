@@ -11,8 +11,8 @@
 #include "merging/merging.hpp"
 #include "pipeline/pipeline_input.hpp"
 #include "pipeline/scan_set.hpp"
-#include "pipeline/scan_sight.hpp"
 #include "pipeline/settled_component.hpp"
+#include "scans/scan_sight.hpp"
 #include "tcm_icp/core/rigid_transform.hpp"
 #include "tcm_icp/core/statistics.hpp"
 
@@ -45,7 +45,7 @@ class RobustPipeline {
     result_.fine_voxel_m = resolutions_.fine_m;
     T_init_ = initial_local_poses(in_.initial_poses, in_.sampled, false);
     result_.viewpoints = find_viewpoints(in_.sampled, in_.context);
-    scans_ = prepare_scans(in_.sampled, resolutions_, in_.options.placement, in_.context);
+    scans_ = prepare_scans(in_.sampled, resolutions_, in_.options.samples, in_.context);
     make_sights(result_.viewpoints, in_.context, scans_);
     for (std::size_t i = 0; i < size(); ++i) {
       if (!result_.viewpoints[i]) continue;
@@ -64,7 +64,8 @@ class RobustPipeline {
       noise_m.push_back(in_.sampled[i].scan.noise_m);
     }
     hypotheses_.emplace(resolutions_.coarse_m, median(noise_m), std::move(moments));
-    PairSearch search(scans_, in_.options, in_.context);
+    const LinkSearchOptions options{in_.options.formulation, in_.options.lp, in_.options.level};
+    PairSearch search(scans_, options, in_.context);
     search.try_guesses(T_init_, *hypotheses_);
     std::vector<bool> wanted(size(), true);
     while (search.extend(wanted, *hypotheses_)) {
@@ -101,7 +102,7 @@ class RobustPipeline {
           change_reference(component, result_.reference);
         }
         in_.clock.begin("merge");
-        const auto records = merge_in_tcm_order(scans_, graph, in_.options, in_.context, component);
+        const auto records = merge_in_tcm_order(scans_, graph, in_.options.merging(), in_.context, component);
         result_.merges.insert(result_.merges.end(), records.begin(), records.end());
         in_.clock.begin("adjust and verify");
         settled_.push_back(
@@ -129,11 +130,12 @@ class RobustPipeline {
   void choose_main_component() {
     std::stable_sort(settled_.begin(), settled_.end(), [&](const SettledComponent& a, const SettledComponent& b) {
       const bool named = !in_.options.reference.empty();
-      const bool a_named = named && a.component.has(result_.reference), b_named = named && b.component.has(result_.reference);
+      const bool a_named = named && a.component.has(result_.reference),
+                 b_named = named && b.component.has(result_.reference);
       return a_named != b_named ? a_named : a.component.size() > b.component.size();
     });
-    const bool misses_named = !in_.options.reference.empty() &&
-                              (settled_.empty() || !settled_.front().component.has(result_.reference));
+    const bool misses_named =
+        !in_.options.reference.empty() && (settled_.empty() || !settled_.front().component.has(result_.reference));
     if (settled_.empty() || misses_named) {
       SettledComponent alone;
       alone.component = component_of_one(in_.options.reference.empty() ? middle_scan() : result_.reference, size());
@@ -183,8 +185,8 @@ class RobustPipeline {
         continue;
       }
       const Component& component = settled_[c].component;
-      const Eigen::Isometry3d T = for_raw_coordinates(
-          *component.T_reference_scan[i], in_.sampled[component.reference].scan, in_.sampled[i].scan);
+      const Eigen::Isometry3d T = for_raw_coordinates(*component.T_reference_scan[i],
+                                                      in_.sampled[component.reference].scan, in_.sampled[i].scan);
       if (number[c] < 0) number[c] = next_component++;
       pose.component = number[c];
       if (i == result_.reference) {
@@ -224,9 +226,9 @@ class RobustPipeline {
         record.evidence = h.measurements.evidence;
         record.free_space = h.measurements.free_space;
         record.log_odds = h.log_odds;
-        record.features = link_features(
-            h.measurements, SearchMeasurements{h.candidate.method, h.candidate.margin, h.second_best_ratio},
-            hypotheses_->reference());
+        record.features = link_features(h.measurements,
+                                        SearchMeasurements{h.candidate.method, h.candidate.margin, h.second_best_ratio},
+                                        hypotheses_->reference());
         record.fate = "open";
         if (both != settled_.end()) {
           const auto& T = both->component.T_reference_scan;

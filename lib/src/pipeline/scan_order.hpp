@@ -6,14 +6,14 @@
 #include <utility>
 #include <vector>
 
-#include "pipeline/scan_sampling.hpp"
+#include "scans/scan_sampling.hpp"
 #include "tcm_icp/pipeline/pipeline_result.hpp"
 
 namespace tcm_icp {
 
-/// Positions of the scans in the list, by the number of their points, then by extent and spacing, which another frame or
-/// unit does not change. In this order ties are broken and sums taken, so that neither names nor the order of the list
-/// change a bit of any pose. Scans that are alike in all that go by name.
+/// Positions of the scans in the list, by the number of their points, then by extent and spacing, which another frame
+/// or unit does not change. In this order ties are broken and sums taken, so that neither names nor the order of the
+/// list change a bit of any pose. Scans that are alike in all that go by name.
 std::vector<std::size_t> order_by_content(const std::vector<SampledScan>& scans,
                                           const std::vector<std::filesystem::path>& paths);
 

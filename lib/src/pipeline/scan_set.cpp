@@ -1,4 +1,4 @@
-#include "scan_set.hpp"
+#include "pipeline/scan_set.hpp"
 
 #include <algorithm>
 #include <optional>
@@ -65,7 +65,7 @@ std::vector<SampledScan> read_scans(const std::vector<std::filesystem::path>& pa
     const std::size_t count = std::min(batch, paths.size() - first);
     parallel_for(context.num_threads, count, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = first + begin; i < first + end; ++i) {
-        scans[i] = sample_scan(paths[i], options, context.seed, 1, detail);
+        scans[i] = sample_scan(paths[i], options.sampling, options.outliers, context.seed, 1, detail);
       }
     });
   }
@@ -79,7 +79,7 @@ ScanSummary summarize(const SampledScan& s) {
 }
 
 std::vector<PreparedScan> prepare_scans(std::vector<SampledScan>& scans, const Resolutions& resolutions,
-                                        const PlacementOptions& options, const RunContext& context) {
+                                        const SampleSizes& options, const RunContext& context) {
   context.report("preparing", 0, scans.size());
   std::vector<std::optional<PreparedScan>> prepared(scans.size());
   parallel_for(context.num_threads, scans.size(), [&](std::size_t begin, std::size_t end) {

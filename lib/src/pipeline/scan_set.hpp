@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <vector>
 
-#include "prepared_scan.hpp"
-#include "scan_sampling.hpp"
+#include "scans/prepared_scan.hpp"
+#include "scans/scan_sampling.hpp"
 #include "tcm_icp/core/run_context.hpp"
 #include "tcm_icp/graph/correspondence_graph.hpp"
 #include "tcm_icp/pipeline/pipeline.hpp"
@@ -33,7 +33,7 @@ ScanSummary summarize(const SampledScan& scan);
 /// prepare_scan() for each scan. The working clouds are given up: the samples stand for them from here on. Reports
 /// "preparing". @throws Cancelled
 std::vector<PreparedScan> prepare_scans(std::vector<SampledScan>& scans, const Resolutions& resolutions,
-                                        const PlacementOptions& options, const RunContext& context);
+                                        const SampleSizes& options, const RunContext& context);
 
 /// For each scan T_common_local: initial pose times the shift to the raw coordinates. Where there is none: nothing, or,
 /// `as_they_lie`, the identity times that shift.

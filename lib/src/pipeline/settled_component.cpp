@@ -8,9 +8,9 @@
 #include "adjustment/adjustment.hpp"
 #include "adjustment/uncertainty.hpp"
 #include "decision/link_decision.hpp"
-#include "links/link_likelihood.hpp"
 #include "inference/configuration.hpp"
 #include "inference/cuts.hpp"
+#include "links/link_likelihood.hpp"
 #include "links/measure_link.hpp"
 #include "links/verification_at.hpp"
 #include "merging/merged_cloud.hpp"
@@ -72,8 +72,8 @@ class Settling {
     std::vector<Eigen::Isometry3d> T = poses();
     out_.pairs = hypotheses_.without_contradicted(
         overlapping_pairs(scans_, T, membership(), kMinLinkOverlap, context_.num_threads), T);
-    out_.adjustment =
-        adjust_poses(scans_, out_.pairs, out_.component.reference, resolutions_, options_, context_, T);
+    out_.adjustment = adjust_poses(scans_, out_.pairs, out_.component.reference, resolutions_, options_.adjustment,
+                                   options_.lp, context_, T);
     for (const std::size_t i : out_.component.members()) out_.component.T_reference_scan[i] = T[i];
   }
 
@@ -225,9 +225,9 @@ class Settling {
 
 }  // namespace
 
-SettledComponent settle(const std::vector<PreparedScan>& scans, const HypothesisSet& hypotheses,
-                        const PairGraph& graph, const Resolutions& resolutions, const PipelineOptions& options,
-                        const RunContext& context, Component component) {
+SettledComponent settle(const std::vector<PreparedScan>& scans, const HypothesisSet& hypotheses, const PairGraph& graph,
+                        const Resolutions& resolutions, const PipelineOptions& options, const RunContext& context,
+                        Component component) {
   return Settling(scans, hypotheses, graph, resolutions, options, context, std::move(component)).run();
 }
 

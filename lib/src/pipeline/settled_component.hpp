@@ -8,7 +8,7 @@
 #include "adjustment/joint_matches.hpp"
 #include "inference/compared_pairs.hpp"
 #include "links/hypotheses.hpp"
-#include "pipeline/prepared_scan.hpp"
+#include "scans/prepared_scan.hpp"
 #include "tcm_icp/core/run_context.hpp"
 #include "tcm_icp/decision/scan_decision.hpp"
 #include "tcm_icp/pipeline/pipeline_options.hpp"
@@ -28,11 +28,11 @@ struct SettledComponent {
 };
 
 /// Adjusts all poses jointly, measures and decides, and takes out what is least sure, one scan at a time, or a group
-/// whose place is ambiguous as a whole, because a wrong neighbour spoils what is measured of right ones; again until all
-/// that are left pass. The reference is judged like the others; where the user named none, the member with the most
+/// whose place is ambiguous as a whole, because a wrong neighbour spoils what is measured of right ones; again until
+/// all that are left pass. The reference is judged like the others; where the user named none, the member with the most
 /// overlapping pairs becomes it.
-SettledComponent settle(const std::vector<PreparedScan>& scans, const HypothesisSet& hypotheses,
-                        const PairGraph& graph, const Resolutions& resolutions, const PipelineOptions& options,
-                        const RunContext& context, Component component);
+SettledComponent settle(const std::vector<PreparedScan>& scans, const HypothesisSet& hypotheses, const PairGraph& graph,
+                        const Resolutions& resolutions, const PipelineOptions& options, const RunContext& context,
+                        Component component);
 
 }  // namespace tcm_icp

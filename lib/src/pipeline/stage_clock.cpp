@@ -1,4 +1,4 @@
-#include "stage_clock.hpp"
+#include "pipeline/stage_clock.hpp"
 
 #include <sys/resource.h>
 

@@ -51,8 +51,8 @@ std::string links_section(const Json& report) {
     const bool accepted = link.at("verdict") == "accepted";
     const bool strength = link.contains("strength");
     rows.push_back({scan_label(report, link.at("a")), scan_label(report, link.at("b")),
-                    badge(accepted ? "good" : "fair", escaped(link.at("verdict").get<std::string>())), percent(e.at("overlap")),
-                    percent(e.at("inlier_share")), figure(e.at("median_residual_m"), 1000),
+                    badge(accepted ? "good" : "fair", escaped(link.at("verdict").get<std::string>())),
+                    percent(e.at("overlap")), percent(e.at("inlier_share")), figure(e.at("median_residual_m"), 1000),
                     strength ? figure(link.at("strength").at("axes").at(0).at("slide_m"), 1000) : figure(Json()),
                     strength ? weakest_direction(link.at("strength")) : figure(Json()),
                     accepted ? "" : sentence(link.at("reason"))});

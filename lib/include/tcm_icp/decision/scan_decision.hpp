@@ -17,8 +17,8 @@ namespace tcm_icp {
 struct ScanMeasurements {
   AlignmentEvidence evidence;    ///< of its held-out points against all scans it overlaps with, together
   FreeSpaceEvidence free_space;  ///< against the same scans
-  double lead = 0;  ///< log-odds of its place by the hypotheses of pairs, against the best other place or none
-  double support = 0;                    ///< the same, against none
+  double lead = 0;     ///< log-odds of its place by the hypotheses of pairs, against the best other place or none
+  double support = 0;  ///< the same, against none
   std::optional<double> other_distance;  ///< [m] rms distance to that other place; none: nothing leads elsewhere
   std::size_t num_moved = 1;             ///< scans that would move with it
   /// Of the pairs that overlap across the weakest hold, at the final poses: those of the scan, or of the group that
@@ -35,9 +35,9 @@ struct ComponentReference {
 };
 
 inline constexpr std::array<std::string_view, 17> kDecisionFeatureNames{
-    "lead",          "log_lead",   "log_overlap",   "log_inlier_share", "inliers_by_set", "residual_by_set",
-    "weakest_left",  "mean_left",  "left_across",   "across_unknown",   "violations",     "opposed",
-    "space_unseen",  "best_link",  "mean_link",     "contradicting",    "few_agree"};
+    "lead",         "log_lead",  "log_overlap", "log_inlier_share", "inliers_by_set", "residual_by_set",
+    "weakest_left", "mean_left", "left_across", "across_unknown",   "violations",     "opposed",
+    "space_unseen", "best_link", "mean_link",   "contradicting",    "few_agree"};
 using DecisionFeatures = std::array<double, kDecisionFeatureNames.size()>;
 
 /// Finite, without a unit, within bounds.
@@ -64,8 +64,8 @@ struct DecisionOptions {
 
 struct Decision {
   Reason reason = Reason::kNotDecided;
-  double probability = 0;  ///< that the place is right
-  std::string text;        ///< the reason for a person, with its figures
+  double probability = 0;       ///< that the place is right
+  std::string text;             ///< the reason for a person, with its figures
   DecisionFeatures features{};  ///< what the probability was told from
   bool accepted() const { return reason == Reason::kAccepted || reason == Reason::kReference; }
 };

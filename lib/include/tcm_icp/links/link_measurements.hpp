@@ -29,9 +29,9 @@ struct SearchMeasurements {
 
 /// What measurements are compared with: the set's own scans and its better hypotheses.
 struct SetReference {
-  double voxel_m = 0;            ///< [m] coarse voxel
-  double noise_m = 0;            ///< [m] median deviation from a local plane
-  double best_inlier_share = 1;  ///< 0.95 quantile over the hypotheses
+  double voxel_m = 0;             ///< [m] coarse voxel
+  double noise_m = 0;             ///< [m] median deviation from a local plane
+  double best_inlier_share = 1;   ///< 0.95 quantile over the hypotheses
   double typical_residual_m = 0;  ///< [m] median residual of the tenth of them with the most consensus
 
   /// @param hypotheses  of a whole set, right and wrong ones
@@ -40,11 +40,11 @@ struct SetReference {
 
 /// Names of the numbers below, in their order.
 inline constexpr std::array<std::string_view, 20> kLinkFeatureNames{
-    "log_overlap",         "log_other_overlap",  "log_inlier_share",    "log_other_inlier_share",
-    "inliers_by_best",     "residual_by_voxel",  "residual_by_typical", "voxel_by_noise",
-    "weakest_left",        "mean_left",          "left_across",         "across_unknown",
-    "violations",          "opposed",            "space_unseen",        "second_best",
-    "height_map_margin",   "height_map",         "feature_margin",      "slide"};
+    "log_overlap",       "log_other_overlap", "log_inlier_share",    "log_other_inlier_share",
+    "inliers_by_best",   "residual_by_voxel", "residual_by_typical", "voxel_by_noise",
+    "weakest_left",      "mean_left",         "left_across",         "across_unknown",
+    "violations",        "opposed",           "space_unseen",        "second_best",
+    "height_map_margin", "height_map",        "feature_margin",      "slide"};
 inline constexpr std::size_t kNumPoseFeatures = 15;  ///< the others are of the search
 using LinkFeatures = std::array<double, kLinkFeatureNames.size()>;
 

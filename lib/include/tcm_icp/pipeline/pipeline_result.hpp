@@ -5,23 +5,17 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
+#include "tcm_icp/adjustment/adjustment_record.hpp"
 #include "tcm_icp/baselines/pair_fit.hpp"
-#include "tcm_icp/coarse/pose_candidate.hpp"
-#include "tcm_icp/graph/correspondence_graph.hpp"
 #include "tcm_icp/decision/scan_decision.hpp"
+#include "tcm_icp/graph/correspondence_graph.hpp"
 #include "tcm_icp/io/pose_io.hpp"
-#include "tcm_icp/links/link_measurements.hpp"
+#include "tcm_icp/links/link_record.hpp"
+#include "tcm_icp/merging/merge_record.hpp"
 #include "tcm_icp/outliers/outlier_removal.hpp"
-#include "tcm_icp/registration/linear_program.hpp"
-#include "tcm_icp/registration/link_strength.hpp"
 #include "tcm_icp/registration/pose_covariance.hpp"
-#include "tcm_icp/registration/refinement.hpp"
-#include "tcm_icp/registration/registration_result.hpp"
-#include "tcm_icp/registration/verification.hpp"
-#include "tcm_icp/tcm/tcm.hpp"
 #include "tcm_icp/visibility/free_space.hpp"
 #include "tcm_icp/visibility/viewpoint.hpp"
 
@@ -40,51 +34,6 @@ struct ScanSummary {
   OutlierRule outliers;                              ///< for points in the scan's local frame
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< [m] local frame = raw coordinates minus this
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();  ///< [m] median point, local frame
-};
-
-/// How a scan was merged into S.
-struct MergeRecord {
-  std::size_t scan = 0;
-  TcmTerms tcm;                      ///< against S, before the simplex
-  RegistrationResult simplex;
-  std::optional<RefinementTrace> descent;
-  std::optional<RefinementTrace> annealing;
-  bool accepted = false;  ///< the fit was taken: in the robust profile it stays where links lead
-  std::string reason;
-};
-
-/// Two scans whose points overlap at the final poses.
-struct LinkRecord {
-  std::size_t a = 0, b = 0;    ///< the file of a comes first by name
-  AlignmentEvidence evidence;  ///< of the direction that overlaps more
-  FreeSpaceEvidence free_space;
-  double probability = 0;  ///< that the pose is right, by the pair alone
-  std::string verdict, reason;
-  std::optional<LinkStrength> strength;  ///< in the reference's local frame; robust profile only
-};
-
-/// The last joint adjustment of a run.
-struct AdjustmentRecord {
-  LpFigures lp;                            ///< of the joint linear programs
-  LpStatus lp_status = LpStatus::kNotRun;  ///< of the last
-  std::size_t num_lp_matches = 0;          ///< of the last
-  double lp_rms_move_m = 0;                ///< [m] of the scans, in the last that was solved
-  int num_steps = 0;                       ///< of the least squares that follow
-  double rms_move_m = 0;                   ///< [m] of the scans, in the last of them
-  std::vector<std::pair<std::size_t, std::size_t>>
-      outlying_pairs;  ///< fit far worse than the others, see outlying_links
-};
-
-/// A pose that a pair may have, found without a guess, and what became of it.
-struct LinkHypothesisRecord {
-  std::size_t a = 0, b = 0;                                 ///< the file of a comes first by name
-  Eigen::Isometry3d T_a_b = Eigen::Isometry3d::Identity();  ///< for raw coordinates
-  PoseCandidate candidate;                                  ///< the coarse pose it came from; local frames
-  AlignmentEvidence evidence;                               ///< of the pair alone
-  FreeSpaceEvidence free_space;
-  double log_odds = 0;  ///< that it is right, by the pair alone
-  LinkFeatures features{};  ///< what that was told from
-  std::string fate;     ///< confirmed or contradicted by the final poses; open where no group has both scans
 };
 
 struct StageRecord {

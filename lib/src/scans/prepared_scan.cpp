@@ -1,4 +1,4 @@
-#include "prepared_scan.hpp"
+#include "scans/prepared_scan.hpp"
 
 #include <algorithm>
 
@@ -22,8 +22,8 @@ Cloud draw(const Cloud& cloud, int count, std::uint64_t seed, std::string_view s
 }
 
 // Splits one draw so that no held-out point is in the fit.
-void draw_fit_and_held_out(const Cloud& cloud, const PlacementOptions& options, std::uint64_t seed,
-                           const std::string& key, Cloud& fit, Cloud& held_out) {
+void draw_fit_and_held_out(const Cloud& cloud, const SampleSizes& options, std::uint64_t seed, const std::string& key,
+                           Cloud& fit, Cloud& held_out) {
   Rng rng = make_stream(seed, "fit and held-out points", key);
   const auto wanted = static_cast<std::size_t>(options.fine_points + options.held_out_points);
   const auto drawn = normal_space_sample(cloud, wanted, rng);
@@ -61,7 +61,7 @@ Resolutions choose_resolutions(const std::vector<SampledScan>& scans, const Samp
   return {coarse_m, std::min(coarse_m, fine_m)};
 }
 
-PreparedScan prepare_scan(const SampledScan& scan, const Resolutions& resolutions, const PlacementOptions& options,
+PreparedScan prepare_scan(const SampledScan& scan, const Resolutions& resolutions, const SampleSizes& options,
                           std::uint64_t seed) {
   const Cloud surfaces{scan.scan.cloud.points, scan.surface_normals};
   Cloud fine = voxel_downsample(surfaces, resolutions.fine_m);

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "scan_sampling.hpp"
+#include "scans/scan_sampling.hpp"
 #include "tcm_icp/core/rigid_transform.hpp"
 #include "tcm_icp/registration/scan_pyramid.hpp"
 #include "tcm_icp/tcm/robust_tcm.hpp"
@@ -40,7 +40,7 @@ struct PreparedScan {
 /// The median over the scans of the voxel edge at which a scan has the wanted number of voxels.
 Resolutions choose_resolutions(const std::vector<SampledScan>& scans, const SamplingOptions& options, int num_threads);
 
-PreparedScan prepare_scan(const SampledScan& scan, const Resolutions& resolutions, const PlacementOptions& options,
+PreparedScan prepare_scan(const SampledScan& scan, const Resolutions& resolutions, const SampleSizes& options,
                           std::uint64_t seed);
 
 /// Levels of every pyramid: gates up to 32 coarse voxels are served at a fitting resolution.

@@ -1,4 +1,4 @@
-#include "scan_sampling.hpp"
+#include "scans/scan_sampling.hpp"
 
 #include <algorithm>
 
@@ -63,9 +63,9 @@ Points stream_into_sample(Scan& scan, std::size_t max_points) {
   return sample;
 }
 
-// Along a ring points are so dense that a point's nearest neighbours are of one ring, spread by the noise of its ranges:
-// their plane is the scanner's, not the wall's. So planes are fitted to points as dense as surfaces are covered, and a
-// point takes the plane of the nearest of those.
+// Along a ring points are so dense that a point's nearest neighbours are of one ring, spread by the noise of its
+// ranges: their plane is the scanner's, not the wall's. So planes are fitted to points as dense as surfaces are
+// covered, and a point takes the plane of the nearest of those.
 NormalEstimate normals_of_surfaces(const Scan& scan, const NeighborIndex& index, int num_threads) {
   const Points& points = scan.cloud.points;
   if (!(scan.coverage_m > 0)) return estimate_normals(points, index, {}, num_threads);
@@ -89,16 +89,16 @@ NormalEstimate normals_of_surfaces(const Scan& scan, const NeighborIndex& index,
 
 }  // namespace
 
-SampledScan sample_scan(const std::filesystem::path& path, const PipelineOptions& options, std::uint64_t seed,
-                        int num_threads, ScanDetail detail) {
+SampledScan sample_scan(const std::filesystem::path& path, const SamplingOptions& sampling,
+                        const OutlierOptions& outliers, std::uint64_t seed, int num_threads, ScanDetail detail) {
   SampledScan out;
   Scan& scan = out.scan;
   scan.path = path;
   scan.file = path.filename().string();
-  const Points sample = stream_into_sample(scan, options.sampling.max_working_points);
+  const Points sample = stream_into_sample(scan, sampling.max_working_points);
 
   Rng rng = make_stream(seed, "outliers", stream_key(scan));
-  out.outliers = learn_outlier_rule(sample, scan.voxel_size_m, options.outliers, rng, num_threads);
+  out.outliers = learn_outlier_rule(sample, scan.voxel_size_m, outliers, rng, num_threads);
   for (const auto& p : sample) {
     if (!out.outliers.is_outlier(p)) scan.cloud.points.push_back(p);
   }
@@ -121,7 +121,7 @@ SampledScan sample_scan(const std::filesystem::path& path, const PipelineOptions
   scan.noise_m = roughness.empty() ? 0 : median(roughness);
   out.surface_normals = estimate.normals;
   for (std::size_t i = 0; i < estimate.normals.size(); ++i) {
-    if (estimate.variation[i] > options.sampling.max_surface_variation) out.surface_normals[i].setZero();
+    if (estimate.variation[i] > sampling.max_surface_variation) out.surface_normals[i].setZero();
   }
   scan.cloud.normals = std::move(estimate.normals);
   return out;

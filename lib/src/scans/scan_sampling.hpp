@@ -6,7 +6,7 @@
 #include "tcm_icp/core/run_context.hpp"
 #include "tcm_icp/core/scan.hpp"
 #include "tcm_icp/outliers/outlier_removal.hpp"
-#include "tcm_icp/pipeline/pipeline_options.hpp"
+#include "tcm_icp/scans/sampling_options.hpp"
 #include "tcm_icp/visibility/scan_lines.hpp"
 
 namespace tcm_icp {
@@ -27,7 +27,8 @@ enum class ScanDetail { kPoints, kNormals, kLinePieces };
 /// working cloud, then finds the detail that is wanted; without normals the noise is 0. Memory follows
 /// max_working_points.
 /// @throws InputError, InvalidInput
-SampledScan sample_scan(const std::filesystem::path& path, const PipelineOptions& options, std::uint64_t seed,
-                        int num_threads, ScanDetail detail = ScanDetail::kLinePieces);
+SampledScan sample_scan(const std::filesystem::path& path, const SamplingOptions& sampling,
+                        const OutlierOptions& outliers, std::uint64_t seed, int num_threads,
+                        ScanDetail detail = ScanDetail::kLinePieces);
 
 }  // namespace tcm_icp

@@ -1,4 +1,4 @@
-#include "scan_sight.hpp"
+#include "scans/scan_sight.hpp"
 
 #include <array>
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "prepared_scan.hpp"
+#include "scans/prepared_scan.hpp"
 #include "tcm_icp/core/run_context.hpp"
 #include "tcm_icp/visibility/free_space.hpp"
 #include "tcm_icp/visibility/viewpoint.hpp"

@@ -1,0 +1,37 @@
+#pragma once
+// Pairs of scans in the result: links at the final poses, and the hypotheses they were found among.
+
+#include <Eigen/Geometry>
+#include <cstddef>
+#include <optional>
+#include <string>
+
+#include "tcm_icp/coarse/pose_candidate.hpp"
+#include "tcm_icp/links/link_measurements.hpp"
+#include "tcm_icp/registration/link_strength.hpp"
+
+namespace tcm_icp {
+
+/// Two scans whose points overlap at the final poses.
+struct LinkRecord {
+  std::size_t a = 0, b = 0;    ///< the file of a comes first by name
+  AlignmentEvidence evidence;  ///< of the direction that overlaps more
+  FreeSpaceEvidence free_space;
+  double probability = 0;  ///< that the pose is right, by the pair alone
+  std::string verdict, reason;
+  std::optional<LinkStrength> strength;  ///< in the reference's local frame; robust profile only
+};
+
+/// A pose that a pair may have, found without a guess, and what became of it.
+struct LinkHypothesisRecord {
+  std::size_t a = 0, b = 0;                                 ///< the file of a comes first by name
+  Eigen::Isometry3d T_a_b = Eigen::Isometry3d::Identity();  ///< for raw coordinates
+  PoseCandidate candidate;                                  ///< the coarse pose it came from; local frames
+  AlignmentEvidence evidence;                               ///< of the pair alone
+  FreeSpaceEvidence free_space;
+  double log_odds = 0;      ///< that it is right, by the pair alone
+  LinkFeatures features{};  ///< what that was told from
+  std::string fate;         ///< confirmed or contradicted by the final poses; open where no group has both scans
+};
+
+}  // namespace tcm_icp
