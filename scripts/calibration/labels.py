@@ -75,7 +75,8 @@ def hypotheses(data, scene, name, rows):
 
 
 def decisions(data, scene, name, rows, slack=1.5):
-    """A scan is right within the tolerance (times `slack`, since the frame is one member's) of most of its component."""
+    """A scan is right within the tolerance of where the reference says (times `slack`, for what the reference itself is
+    off by). Where that makes the reference the only right one, it is the wrong one."""
     poses = json.loads((data.folder_of_result / "poses.json").read_text())
     components = {}
     for scan, entry in zip(poses["scans"], data.report["scans"]):
@@ -83,19 +84,25 @@ def decisions(data, scene, name, rows, slack=1.5):
         if pose is not None and "lead" in entry["decision"]:
             components.setdefault(scan["component"], []).append((scan["file"], np.array(pose, float), entry["decision"]))
     for members in components.values():
-        best = []
-        for frame, T_frame, _ in members:
-            good = []
-            for file, T, _ in members:
-                m, deg = data.error(frame, file, np.linalg.inv(T_frame) @ T)
-                good.append(data.group[file] == data.group[frame] and m <= slack * data.tolerance_m
-                            and deg <= slack * data.tolerance_deg)
-            if sum(good) > sum(best):
-                best = good
-        if len(members) == 2 and not all(best):
-            best = [False, False]
-        for (_, _, decision), right in zip(members, best):
+        agreeing = [_right_beside(data, member, members, slack) for member in members]
+        reference = int(np.argmin([np.abs(T - np.eye(4)).max() for _, T, _ in members]))
+        labels = agreeing[reference]
+        if sum(labels) == 1 and len(members) > 2:
+            labels = max(agreeing, key=sum)
+        if sum(labels) == 1:
+            labels = [False] * len(members)
+        for (_, _, decision), right in zip(members, labels):
             rows.add(decision["features"], right, scene, name)
+
+
+def _right_beside(data, frame, members, slack):
+    """Which members lie right to the first one."""
+    out = []
+    for file, T, _ in members:
+        m, deg = data.error(frame[0], file, np.linalg.inv(frame[1]) @ T)
+        out.append(data.group[file] == data.group[frame[0]] and m <= slack * data.tolerance_m
+                   and deg <= slack * data.tolerance_deg)
+    return out
 
 
 def load(root, results, what, match=lambda name: True):

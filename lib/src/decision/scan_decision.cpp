@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <numeric>
 
 #include "tcm_icp/core/error.hpp"
 #include "tcm_icp/core/statistics.hpp"
@@ -10,15 +11,26 @@
 namespace tcm_icp {
 namespace {
 
+// A scan is wrong where its place is taken for another, or where it has none: two ways, whose odds add up.
 struct ScanModel {
-  double constant;
-  DecisionFeatures weights, usual;  // of right scans
+  double place_constant, quality_constant;
+  DecisionFeatures place, quality;  // weights
+  DecisionFeatures usual;           // of right scans
+
+  double log_odds(const DecisionFeatures& f) const {
+    const double place_odds = dot(place, f) + place_constant, quality_odds = dot(quality, f) + quality_constant;
+    return -std::log(std::exp(-place_odds) + std::exp(-quality_odds));
+  }
+  static double dot(const DecisionFeatures& weights, const DecisionFeatures& f) {
+    return std::inner_product(f.begin(), f.end(), weights.begin(), 0.0);
+  }
 };
 
 #include "scan_model.inc"
 
 constexpr double kLeastShare = 0.01, kMostLeft = 2, kMostRatio = 10, kMostLead = 20, kLeastLead = -10, kMostLink = 8;
 constexpr double kUsualViolations = 0.004, kUsualOpposed = 0.03;
+constexpr std::size_t kNumReasons = static_cast<std::size_t>(Reason::kTooFewPoints) + 1;
 constexpr double kContradicting = -3;  // log-odds of a link that should be right if the pose is
 constexpr std::size_t kFewAcross = 30, kFewMatches = 100, kFewAgreeing = 30;
 
@@ -171,19 +183,19 @@ Decision decide(const ScanMeasurements& m, const ComponentReference& component, 
     return decision;
   }
   const DecisionFeatures& f = decision.features;
-  double log_odds = kScanModel.constant;
-  std::array<double, 10> taken{};
-  for (std::size_t i = 0; i < f.size(); ++i) {
-    log_odds += kScanModel.weights[i] * f[i];
-    taken[static_cast<std::size_t>(reason_of(i))] += kScanModel.weights[i] * (f[i] - kScanModel.usual[i]);
-  }
-  decision.probability = 1 / (1 + std::exp(-log_odds));
+  decision.probability = 1 / (1 + std::exp(-kScanModel.log_odds(f)));
   if (decision.probability >= options.confidence) {
     decision.reason = Reason::kAccepted;
   } else {
-    const auto worst = std::min_element(taken.begin(), taken.end());
-    decision.reason = static_cast<Reason>(worst - taken.begin());
-    if (*worst >= 0) decision.reason = Reason::kAmbiguous;
+    // What each kind of measurement takes from the log-odds, where the others are as right scans have them.
+    std::array<DecisionFeatures, kNumReasons> instead;
+    instead.fill(kScanModel.usual);
+    for (std::size_t i = 0; i < f.size(); ++i) instead[static_cast<std::size_t>(reason_of(i))][i] = f[i];
+    const auto worst = std::min_element(instead.begin(), instead.end(), [](const auto& x, const auto& y) {
+      return kScanModel.log_odds(x) < kScanModel.log_odds(y);
+    });
+    decision.reason = static_cast<Reason>(worst - instead.begin());
+    if (kScanModel.log_odds(*worst) >= kScanModel.log_odds(kScanModel.usual)) decision.reason = Reason::kAmbiguous;
   }
   decision.text = describe(decision.reason, m, component);
   return decision;
