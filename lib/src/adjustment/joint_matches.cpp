@@ -69,7 +69,7 @@ std::vector<JointLink> match_pairs(const std::vector<PreparedScan>& scans, const
       const PreparedScan &target = scans[link.target], &source = scans[link.source];
       const Eigen::Isometry3d T_target_source = T.inverse() * T_reference_scan[link.source];
       link.matches =
-          find_correspondences(part_of(source.fine_sample, target.share, parts_for(num_neighbors[link.source])),
+          find_correspondences(part_of(source.fine_sample, link.target, parts_for(num_neighbors[link.source])),
                                T_target_source, target.fine, gate);
       drop_opposed(target.sight, source.sight, T_target_source, link.matches);
       for (auto& m : link.matches) {

@@ -9,8 +9,8 @@ namespace tcm_icp {
 namespace {
 
 constexpr int kFirstHalvings = 12;
-constexpr std::size_t kLeastVoxels = 32;  // fewer say nothing of a dimension
-constexpr double kLine = 1;               // the dimension of a line
+constexpr std::size_t kLeastVoxels = 64;  // fewer say nothing of a dimension
+constexpr double kLine = 1.05;            // the dimension of a line, and what a grid makes of an oblique one
 
 }  // namespace
 

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <numeric>
 
+#include "links/feature_scales.hpp"
 #include "tcm_icp/core/error.hpp"
 #include "tcm_icp/core/statistics.hpp"
 
@@ -28,28 +29,11 @@ struct ScanModel {
 
 #include "scan_model.inc"
 
-constexpr double kLeastShare = 0.01, kMostLeft = 2, kMostRatio = 10, kMostLead = 20, kLeastLead = -10, kMostLink = 8;
-constexpr double kUsualViolations = 0.004, kUsualOpposed = 0.03;
+constexpr double kMostLead = 20, kLeastLead = -10, kMostLink = 8;
+constexpr double kLeastSigma = 0.01, kMostSigma = 2;  // in coarse voxels
 constexpr std::size_t kNumReasons = static_cast<std::size_t>(Reason::kTooFewPoints) + 1;
 constexpr double kContradicting = -3;  // log-odds of a link that should be right if the pose is
-constexpr std::size_t kFewAcross = 30, kFewMatches = 100, kFewAgreeing = 30;
-
-double log_share(double share) { return std::log(std::max(share, kLeastShare)); }
-
-double log_ratio(double a, double b) { return b > 0 ? std::log(std::clamp(a / b, 1 / kMostRatio, kMostRatio)) : 0; }
-
-double beyond(std::size_t part, std::size_t all, double usual) {
-  const auto count = static_cast<double>(part);
-  return std::log1p((count - std::min(count, std::sqrt(count))) / static_cast<double>(all) / usual);
-}
-
-double violations(const FreeSpaceEvidence& e) {
-  return e.tells() ? beyond(e.num_violating, e.num_points, kUsualViolations) : 0;
-}
-
-double opposed(const FreeSpaceEvidence& e) {
-  return e.num_matches >= kFewMatches ? beyond(e.num_opposed, e.num_matches, kUsualOpposed) : 0;
-}
+constexpr std::size_t kFewAgreeing = 30;
 
 double agreeing(const AlignmentEvidence& e) { return e.consensus() * static_cast<double>(e.num_points); }
 
@@ -68,6 +52,7 @@ std::string figure(double value) {
 // What features belong to what can be said of a scan.
 Reason reason_of(std::size_t feature) {
   if (feature <= 1) return Reason::kAmbiguous;
+  if (feature == 17) return Reason::kInexact;
   if (feature <= 5 || feature >= 13) return Reason::kMisfit;
   return feature <= 9 ? Reason::kSlides : Reason::kSeenThrough;
 }
@@ -87,6 +72,9 @@ std::string describe(Reason reason, const ScanMeasurements& m, const ComponentRe
     case Reason::kSlides:
       return "moved along its weakest direction, it still agrees at " + percent(e.left_after_slide[0]) +
              " of as many points";
+    case Reason::kInexact:
+      return m.sigma_in_voxels ? "its standard deviation is " + figure(*m.sigma_in_voxels) + " coarse voxels"
+                               : std::string("what it shares with the others does not determine its pose");
     case Reason::kSeenThrough:
       return "seen through walls: " + percent(m.free_space.violation_share()) +
              " of what it and its neighbours share lies before surfaces the other saw, " +
@@ -112,9 +100,6 @@ ComponentReference ComponentReference::of(const std::vector<ScanMeasurements>& m
 
 DecisionFeatures decision_features(const ScanMeasurements& m, const ComponentReference& component) {
   const AlignmentEvidence& e = m.evidence;
-  double mean_left = 0;
-  for (const double left : e.left_after_slide) mean_left += std::min(left, kMostLeft) / 6;
-  const bool across = e.num_across >= kFewAcross, space = m.free_space.tells();
   const double lead = std::clamp(m.lead, kLeastLead, kMostLead);
   double best = -kMostLink, mean = 0, contradicting = 0;
   for (const double l : m.link_log_odds) {
@@ -130,17 +115,18 @@ DecisionFeatures decision_features(const ScanMeasurements& m, const ComponentRef
   f[3] = log_share(e.inlier_share);
   f[4] = log_ratio(std::max(e.inlier_share, kLeastShare), component.inlier_share);
   f[5] = log_ratio(e.median_residual_m, component.residual_m);
-  f[6] = std::min(e.left_after_slide[0], kMostLeft);
-  f[7] = mean_left;
-  f[8] = across ? std::min(e.left_across, kMostLeft) : 0;
-  f[9] = across ? 0 : 1;
+  f[6] = weakest_left(e);
+  f[7] = mean_left(e);
+  f[8] = left_across(e);
+  f[9] = tells_across(e) ? 0 : 1;
   f[10] = std::max(violations(m.free_space), violations(m.free_space_across));
   f[11] = std::max(opposed(m.free_space), opposed(m.free_space_across));
-  f[12] = space ? 0 : 1;
+  f[12] = m.free_space.tells() ? 0 : 1;
   f[13] = best;
   f[14] = mean;
   f[15] = contradicting;
   f[16] = std::log(std::clamp(agreeing(e), 1.0, 1000.0) / 1000);
+  f[17] = std::log(std::clamp(m.sigma_in_voxels.value_or(kMostSigma), kLeastSigma, kMostSigma));
   return f;
 }
 
@@ -162,6 +148,8 @@ std::string_view to_string(Reason reason) {
       return "slides";
     case Reason::kSeenThrough:
       return "seen through walls";
+    case Reason::kInexact:
+      return "inexact";
     case Reason::kTooFewPoints:
       return "too few of its points lie on surfaces";
   }
@@ -178,7 +166,9 @@ Decision decide(const ScanMeasurements& m, const ComponentReference& component, 
   Decision decision;
   decision.features = decision_features(m, component);
   if (agreeing(m.evidence) < static_cast<double>(kFewAgreeing)) {
-    decision.reason = m.evidence.num_points < kFewAgreeing ? Reason::kTooFewPoints : Reason::kMisfit;
+    decision.reason = m.link_log_odds.empty()                ? Reason::kNoLink
+                      : m.evidence.num_points < kFewAgreeing ? Reason::kTooFewPoints
+                                                             : Reason::kMisfit;
     decision.text = describe(decision.reason, m, component);
     return decision;
   }

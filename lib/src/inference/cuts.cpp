@@ -1,7 +1,8 @@
 #include "inference/cuts.hpp"
 
 #include <algorithm>
-#include <numeric>
+#include <boost/graph/adjacency_list.hpp>
+#include <boost/graph/boykov_kolmogorov_max_flow.hpp>
 #include <set>
 
 namespace tcm_icp {
@@ -12,57 +13,75 @@ struct Edge {
   std::size_t a, b;
 };
 
-// Edges of a maximum spanning tree (Kruskal); forests where members do not hold together.
-std::vector<Edge> spanning_tree(const PairGraph& graph, const Component& component) {
-  std::vector<Edge> edges, tree;
+std::vector<Edge> supported_pairs(const PairGraph& graph, const Component& component) {
+  std::vector<Edge> edges;
   for (const ComparedPair& pair : graph.pairs()) {
     if (!component.has(pair.a) || !component.has(pair.b)) continue;
     const double support =
         graph.support(pair, *component.T_reference_scan[pair.a], *component.T_reference_scan[pair.b]);
     if (support > 0) edges.push_back({support, pair.a, pair.b});
   }
-  std::stable_sort(edges.begin(), edges.end(), [](const Edge& x, const Edge& y) { return x.support > y.support; });
-  std::vector<std::size_t> root(graph.num_scans());
-  std::iota(root.begin(), root.end(), std::size_t{0});
-  const auto find = [&](std::size_t i) {
-    while (root[i] != i) i = root[i] = root[root[i]];
-    return i;
-  };
-  for (const Edge& edge : edges) {
-    const std::size_t a = find(edge.a), b = find(edge.b);
-    if (a == b) continue;
-    root[a] = b;
-    tree.push_back(edge);
-  }
-  return tree;
+  return edges;
 }
 
-// The scans on the far side of an edge, as seen from the reference.
-std::vector<std::size_t> beyond(const std::vector<Edge>& tree, std::size_t removed, std::size_t reference,
-                                const Component& component) {
-  std::vector<std::vector<std::size_t>> neighbors(component.T_reference_scan.size());
-  for (std::size_t k = 0; k < tree.size(); ++k) {
-    if (k == removed) continue;
-    neighbors[tree[k].a].push_back(tree[k].b);
-    neighbors[tree[k].b].push_back(tree[k].a);
-  }
-  std::vector<bool> reached(neighbors.size(), false);
-  std::vector<std::size_t> open{reference};
-  reached[reference] = true;
-  while (!open.empty()) {
-    const std::size_t i = open.back();
-    open.pop_back();
-    for (const std::size_t j : neighbors[i]) {
-      if (reached[j]) continue;
-      reached[j] = true;
-      open.push_back(j);
+// Minimum cuts between scans, by flows (Boykov and Kolmogorov).
+class Flows {
+  using Traits = boost::adjacency_list_traits<boost::vecS, boost::vecS, boost::directedS>;
+  using Graph = boost::adjacency_list<
+      boost::vecS, boost::vecS, boost::directedS,
+      boost::property<boost::vertex_color_t, boost::default_color_type,
+                      boost::property<boost::vertex_distance_t, long,
+                                      boost::property<boost::vertex_predecessor_t, Traits::edge_descriptor>>>,
+      boost::property<boost::edge_capacity_t, double,
+                      boost::property<boost::edge_residual_capacity_t, double,
+                                      boost::property<boost::edge_reverse_t, Traits::edge_descriptor>>>>;
+
+ public:
+  Flows(const std::vector<Edge>& edges, std::size_t num_scans) : graph_(num_scans) {
+    for (const Edge& e : edges) {
+      const auto there = boost::add_edge(e.a, e.b, graph_).first, back = boost::add_edge(e.b, e.a, graph_).first;
+      for (const auto& [edge, other] : {std::pair(there, back), std::pair(back, there)}) {
+        boost::put(boost::edge_capacity, graph_, edge, e.support);
+        boost::put(boost::edge_reverse, graph_, edge, other);
+      }
     }
   }
-  std::vector<std::size_t> out;
-  for (const std::size_t i : component.members()) {
-    if (!reached[i]) out.push_back(i);
+
+  // Whether each scan is on the side of `from`.
+  std::vector<bool> side_of(std::size_t from, std::size_t to) {
+    boost::boykov_kolmogorov_max_flow(graph_, from, to);
+    std::vector<bool> side(boost::num_vertices(graph_));
+    for (std::size_t i = 0; i < side.size(); ++i) {
+      side[i] = boost::get(boost::vertex_color, graph_, i) == boost::black_color;
+    }
+    return side;
   }
-  return out;
+
+ private:
+  Graph graph_;
+};
+
+// A minimum cut for each edge of a cut tree (Gusfield, 1990): among them is one between any two members. Each as the
+// part without the reference.
+std::vector<std::vector<std::size_t>> minimum_cuts(const std::vector<Edge>& edges, const Component& component) {
+  const std::vector<std::size_t> members = component.members();
+  Flows flows(edges, component.T_reference_scan.size());
+  std::vector<std::size_t> parent(component.T_reference_scan.size(), members.front());
+  std::vector<std::vector<std::size_t>> cuts;
+  for (std::size_t k = 1; k < members.size(); ++k) {
+    const std::size_t i = members[k];
+    const std::vector<bool> side = flows.side_of(i, parent[i]);
+    for (std::size_t l = k + 1; l < members.size(); ++l) {
+      const std::size_t j = members[l];
+      if (side[j] && parent[j] == parent[i]) parent[j] = i;
+    }
+    std::vector<std::size_t> part;
+    for (const std::size_t j : members) {
+      if (side[j] != side[component.reference]) part.push_back(j);
+    }
+    cuts.push_back(std::move(part));
+  }
+  return cuts;
 }
 
 }  // namespace
@@ -111,9 +130,8 @@ Cut measure_cut(const PairGraph& graph, const Component& component, std::vector<
 }
 
 std::vector<Cut> weakest_cuts(const PairGraph& graph, const Component& component) {
-  const std::vector<Edge> tree = spanning_tree(graph, component);
   std::set<std::vector<std::size_t>> parts;
-  for (std::size_t k = 0; k < tree.size(); ++k) parts.insert(beyond(tree, k, component.reference, component));
+  for (auto& part : minimum_cuts(supported_pairs(graph, component), component)) parts.insert(std::move(part));
   for (const std::size_t i : component.members()) {
     if (i != component.reference) parts.insert({i});
   }

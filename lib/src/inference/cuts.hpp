@@ -25,9 +25,9 @@ struct Cut {
 /// The cut between `moved` and the other members.
 Cut measure_cut(const PairGraph& graph, const Component& component, std::vector<std::size_t> moved);
 
-/// The parts that the edges of a maximum spanning tree over the pairs' support hold, and every member by itself, each
-/// once. The weakest hold between any two groups of scans is among them. Cost: for each cut the pairs across times the
-/// poses they lead to.
+/// The parts that minimum cuts of the pairs' support leave, and every member by itself, each once: for any two members
+/// the weakest hold between them is among them. Cost: a flow for each member, and for each cut the pairs across times
+/// the poses they lead to.
 std::vector<Cut> weakest_cuts(const PairGraph& graph, const Component& component);
 
 }  // namespace tcm_icp

@@ -3,32 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "links/feature_scales.hpp"
 #include "tcm_icp/core/statistics.hpp"
 
 namespace tcm_icp {
 namespace {
 
 constexpr double kBestQuantile = 0.95, kBetterShare = 0.1;
-constexpr double kLeastShare = 0.01;    // less overlaps or agrees by chance
-constexpr double kMostLeft = 2;         // a slide that doubles the agreement: the pose is no optimum
-constexpr double kMostRatio = 10;       // of two measurements that are compared
-constexpr std::size_t kFewAcross = 30;  // points: with fewer a share is chance
-constexpr std::size_t kFewMatches = 100;
-// Violations and opposite sides that noise and thin things make at right poses, of which more begins to tell.
-constexpr double kUsualViolations = 0.004, kUsualOpposed = 0.03;
-
-double log_share(double share) { return std::log(std::max(share, kLeastShare)); }
-
-double log_ratio(double a, double b) {
-  if (!(b > 0)) return 0;
-  return std::log(std::clamp(a / b, 1 / kMostRatio, kMostRatio));
-}
-
-// Logarithm of a count's share by the usual one, less a standard deviation of the count: few points prove little.
-double beyond(std::size_t part, std::size_t all, double usual) {
-  const auto count = static_cast<double>(part);
-  return std::log1p((count - std::min(count, std::sqrt(count))) / static_cast<double>(all) / usual);
-}
 
 }  // namespace
 
@@ -54,10 +35,6 @@ SetReference SetReference::of(double voxel_m, double noise_m, const std::vector<
 LinkFeatures link_features(const LinkMeasurements& m, const std::optional<SearchMeasurements>& search,
                            const SetReference& set) {
   const AlignmentEvidence& e = m.evidence;
-  double mean_left = 0;
-  for (const double left : e.left_after_slide) mean_left += std::min(left, kMostLeft) / 6;
-  const bool across = e.num_across >= kFewAcross, space = m.free_space.tells();
-  const bool sides = m.free_space.num_matches >= kFewMatches;
   LinkFeatures f{};
   f[0] = log_share(e.overlap);
   f[1] = log_share(m.other_overlap);
@@ -67,13 +44,13 @@ LinkFeatures link_features(const LinkMeasurements& m, const std::optional<Search
   f[5] = log_ratio(e.median_residual_m, set.voxel_m / kMostRatio);
   f[6] = log_ratio(e.median_residual_m, set.typical_residual_m);
   f[7] = log_ratio(set.voxel_m / kMostRatio, set.noise_m);
-  f[8] = std::min(e.left_after_slide[0], kMostLeft);
-  f[9] = mean_left;
-  f[10] = across ? std::min(e.left_across, kMostLeft) : 0;
-  f[11] = across ? 0 : 1;
-  f[12] = space ? beyond(m.free_space.num_violating, m.free_space.num_points, kUsualViolations) : 0;
-  f[13] = sides ? beyond(m.free_space.num_opposed, m.free_space.num_matches, kUsualOpposed) : 0;
-  f[14] = space ? 0 : 1;
+  f[8] = weakest_left(e);
+  f[9] = mean_left(e);
+  f[10] = left_across(e);
+  f[11] = tells_across(e) ? 0 : 1;
+  f[12] = violations(m.free_space);
+  f[13] = opposed(m.free_space);
+  f[14] = m.free_space.tells() ? 0 : 1;
   if (!search) return f;
   const double margin = std::log(std::clamp(search->margin, 1 / kMostRatio, kMostRatio));
   f[15] = search->second_best_ratio > 0 ? log_ratio(1, search->second_best_ratio) : std::log(kMostRatio);

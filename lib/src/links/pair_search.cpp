@@ -142,7 +142,7 @@ struct PairSearch::Impl {
     described.resize(scans.size());
     parallel_for(context.num_threads, scans.size(), [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
-        Rng rng = make_stream(context.seed, "features", std::to_string(scans[i].share));
+        Rng rng = make_stream(context.seed, "features", scans[i].key);
         described[i] = describe_scan(scans[i].pyramid, features, rng);
       }
     });

@@ -48,7 +48,7 @@ std::vector<MergeRecord> merge_in_tcm_order(const std::vector<PreparedScan>& sca
     MergeRecord record;
     record.scan = q;
     record.tcm = next.terms;
-    Rng rng = make_stream(context.seed, "placement", std::to_string(scans[q].share));
+    Rng rng = make_stream(context.seed, "placement", scans[q].key);
     const Eigen::Isometry3d& T_inferred = *component.T_reference_scan[q];
     const Eigen::Isometry3d T = fit_to_cloud(scans[q], cloud, T_inferred, options, rng, record);
     record.accepted = record.simplex.usable() && graph.same_pose(q, T_inferred, T);
@@ -60,6 +60,7 @@ std::vector<MergeRecord> merge_in_tcm_order(const std::vector<PreparedScan>& sca
     s.add(scans[q].pyramid.level(0).cloud, *component.T_reference_scan[q]);
     order.grown();
     merged[q] = true;
+    context.debug("scan " + std::to_string(q) + " merged: " + record.reason);
     records.push_back(std::move(record));
   }
   return records;

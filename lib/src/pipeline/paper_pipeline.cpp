@@ -90,7 +90,7 @@ void run_paper_pipeline(const PipelineInput& in, PipelineResult& result) {
     MergeRecord record;
     record.scan = q.scan;
     record.tcm = next.terms;
-    Rng rng = make_stream(in.context.seed, "placement", std::to_string(scans[q.scan].share));
+    Rng rng = make_stream(in.context.seed, "placement", scans[q.scan].key);
     T[q.scan] = place_scan_as_printed(scans[q.scan], cloud, q.T_reference_scan, merging, rng, record);  // 6, 7
     if (record.accepted) {
       s.add(scans[q.scan].pyramid.level(0).cloud, T[q.scan]);  // line 8

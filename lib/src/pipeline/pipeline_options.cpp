@@ -42,6 +42,13 @@ void RefinementOptions::validate() const {
           "refinement final_temperature must be above 0 and at most initial_temperature", final_temperature);
 }
 
+void InferenceOptions::validate() const {
+  require(log_poses > 0, "inference log_poses must be above 0", log_poses);
+  require(most_log_odds > 0, "inference most_log_odds must be above 0", most_log_odds);
+  require(max_starts >= 1, "inference max_starts must be at least 1", max_starts);
+  require(max_sweeps >= 1, "inference max_sweeps must be at least 1", max_sweeps);
+}
+
 void PipelineOptions::validate() const {
   require(graph_threshold >= 0, "graph_threshold must be at least 0", graph_threshold);
   sampling.validate();
@@ -51,6 +58,7 @@ void PipelineOptions::validate() const {
   samples.validate();
   adjustment.validate();
   refinement.validate();
+  inference.validate();
   decision.validate();
 }
 

@@ -66,12 +66,12 @@ class RobustPipeline {
     hypotheses_.emplace(resolutions_.coarse_m, median(noise_m), std::move(moments));
     const LinkSearchOptions options{in_.options.formulation, in_.options.lp, in_.options.level};
     PairSearch search(scans_, options, in_.context);
-    search.try_guesses(T_init_, *hypotheses_);
     std::vector<bool> wanted(size(), true);
     while (search.extend(wanted, *hypotheses_)) {
       wanted = without_clear_place();
       if (std::count(wanted.begin(), wanted.end(), true) == 0) break;
     }
+    search.try_guesses(T_init_, *hypotheses_);  // they place what the search did not
   }
 
   std::vector<bool> without_clear_place() const {

@@ -2,9 +2,6 @@
 
 #include <algorithm>
 #include <numeric>
-#include <utility>
-
-#include "core/tie.hpp"
 
 namespace tcm_icp {
 namespace {
@@ -52,10 +49,8 @@ std::vector<std::size_t> order_by_content(const std::vector<SampledScan>& scans,
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
     const Scan &x = scans[a].scan, &y = scans[b].scan;
     if (x.num_raw_points != y.num_raw_points) return x.num_raw_points < y.num_raw_points;
-    for (const auto& [u, v] : {std::pair(x.extent_m, y.extent_m), std::pair(x.spacing_m, y.spacing_m)}) {
-      if (clearly_less(u, v)) return true;
-      if (clearly_less(v, u)) return false;
-    }
+    if (x.extent_m != y.extent_m) return x.extent_m < y.extent_m;
+    if (x.spacing_m != y.spacing_m) return x.spacing_m < y.spacing_m;
     return paths[a].filename() < paths[b].filename();
   });
   return order;

@@ -1,8 +1,8 @@
 #include "pipeline/settled_component.hpp"
 
 #include <algorithm>
-#include <array>
-#include <map>
+#include <cmath>
+#include <iterator>
 #include <string>
 
 #include "adjustment/adjustment.hpp"
@@ -87,6 +87,17 @@ class Settling {
         link_measurements_[k] = measure_link(scans_[a], scans_[b], T[a].inverse() * T[b]);
       }
     });
+    out_.links.clear();
+    for (std::size_t k = 0; k < out_.pairs.size(); ++k) {
+      LinkRecord record;
+      record.a = out_.pairs[k].first;
+      record.b = out_.pairs[k].second;
+      record.evidence = link_measurements_[k].evidence;
+      record.free_space = link_measurements_[k].free_space;
+      out_.links.push_back(record);
+    }
+    measure_uncertainty(scans_, out_.pairs, out_.component.reference, resolutions_, T, context_.num_threads,
+                        out_.uncertainty, out_.links);
     const std::vector<std::size_t> members = out_.component.members();
     std::vector<ScanMeasurements> measured(members.size());
     parallel_for(context_.num_threads, members.size(), [&](std::size_t begin, std::size_t end) {
@@ -111,6 +122,7 @@ class Settling {
       neighbors.emplace_back(-m.evidence.overlap, a == scan ? b : a);
       out.free_space += m.free_space;
     }
+    out.sigma_in_voxels = sigma_in_voxels(scan, T[scan]);
     if (neighbors.empty()) return out;
     std::sort(neighbors.begin(), neighbors.end());
     const double voxel_m = scans_[scan].pyramid.level(0).voxel_size_m;
@@ -124,13 +136,33 @@ class Settling {
     return out;
   }
 
+  // Rms over the scan's points, from the covariance of its pose.
+  std::optional<double> sigma_in_voxels(std::size_t scan, const Eigen::Isometry3d& T) const {
+    if (scan >= out_.uncertainty.poses.size()) return std::nullopt;
+    const PoseUncertainty& u = out_.uncertainty.poses[scan];
+    if (!u.determined) return std::nullopt;
+    const PointMoments& points = scans_[scan].moments;
+    const Eigen::Vector3d from_centre = T * points.mean - u.centre;
+    const Eigen::Matrix3d spread =
+        T.linear() * points.covariance * T.linear().transpose() + from_centre * from_centre.transpose();
+    const Eigen::Matrix3d rotation = u.covariance.topLeftCorner<3, 3>();
+    const double variance_m2 = (rotation * (spread.trace() * Eigen::Matrix3d::Identity() - spread)).trace() +
+                               u.covariance.bottomRightCorner<3, 3>().trace();
+    return std::sqrt(std::max(0.0, variance_m2)) / resolutions_.coarse_m;
+  }
+
   // The cut with the least lead of those that move this scan.
-  void weigh_cuts(std::size_t scan, ScanMeasurements& m) const {
+  const Cut* weakest_cut_of(std::size_t scan) const {
     const Cut* weakest = nullptr;
     for (const Cut& cut : cuts_) {
       if (!std::binary_search(cut.moved.begin(), cut.moved.end(), scan)) continue;
       if (weakest == nullptr || cut.lead() < weakest->lead()) weakest = &cut;
     }
+    return weakest;
+  }
+
+  void weigh_cuts(std::size_t scan, ScanMeasurements& m) const {
+    const Cut* weakest = weakest_cut_of(scan);
     if (weakest == nullptr) return;
     m.lead = weakest->lead();
     m.support = weakest->support;
@@ -163,13 +195,15 @@ class Settling {
       if (!worst || out_.decisions[i].probability < out_.decisions[*worst].probability) worst = i;
     }
     if (!worst) return {};
-    if (out_.decisions[*worst].reason != Reason::kAmbiguous) return {*worst};
-    for (const Cut& cut : cuts_) {
-      const bool same = std::binary_search(cut.moved.begin(), cut.moved.end(), *worst) &&
-                        cut.lead() == out_.measurements[*worst]->lead;
-      if (same && 2 * cut.moved.size() <= members.size()) return cut.moved;
-    }
-    return {*worst};
+    context_.debug("scan " + std::to_string(*worst) + " leaves: " + out_.decisions[*worst].text);
+    const Cut* cut = weakest_cut_of(*worst);
+    if (out_.decisions[*worst].reason != Reason::kAmbiguous || cut == nullptr) return {*worst};
+    // As a whole: of two parts that may lie elsewhere to one another, the larger stays.
+    if (2 * cut->moved.size() <= members.size()) return cut->moved;
+    std::vector<std::size_t> others;
+    std::set_difference(members.begin(), members.end(), cut->moved.begin(), cut->moved.end(),
+                        std::back_inserter(others));
+    return others;
   }
 
   void choose_another_reference() {
@@ -190,26 +224,18 @@ class Settling {
     const std::size_t best = choose_reference(adjacency);
     if (out_.component.has(best) && adjacency[best].size() > adjacency[out_.component.reference].size()) {
       change_reference(out_.component, best);
+      measure_uncertainty(scans_, out_.pairs, best, resolutions_, poses(), context_.num_threads, out_.uncertainty,
+                          out_.links);
     }
   }
 
   void finish() {
-    const std::vector<Eigen::Isometry3d> T = poses();
-    for (std::size_t k = 0; k < out_.pairs.size(); ++k) {
-      const auto [a, b] = out_.pairs[k];
+    for (std::size_t k = 0; k < out_.links.size(); ++k) {
       const LinkDecision decision = decide_link(link_measurements_[k], hypotheses_.reference());
-      LinkRecord record;
-      record.a = a;
-      record.b = b;
-      record.evidence = link_measurements_[k].evidence;
-      record.free_space = link_measurements_[k].free_space;
-      record.probability = decision.probability;
-      record.verdict = decision.verdict;
-      record.reason = decision.text;
-      out_.links.push_back(record);
+      out_.links[k].probability = decision.probability;
+      out_.links[k].verdict = decision.verdict;
+      out_.links[k].reason = decision.text;
     }
-    measure_uncertainty(scans_, out_.pairs, out_.component.reference, resolutions_, T, context_.num_threads,
-                        out_.uncertainty, out_.links);
   }
 
   const std::vector<PreparedScan>& scans_;

@@ -74,6 +74,19 @@ Json pairs_json(const PipelineResult& result) {
           {"pairs", pairs}};
 }
 
+const char* name_of(Refinement method) {
+  switch (method) {
+    case Refinement::kDescent:
+      return "descent";
+    case Refinement::kAnnealing:
+      return "annealing";
+    case Refinement::kDescentThenAnnealing:
+      return "both";
+    default:
+      return "none";
+  }
+}
+
 Json options_json(const PipelineOptions& o, const RunContext& context) {
   return {{"profile", o.profile == Profile::kPaper ? "paper" : "robust"},
           {"solver", to_string(o.lp.lp.solver)},
@@ -91,6 +104,8 @@ Json options_json(const PipelineOptions& o, const RunContext& context) {
           {"held_out_points", o.samples.held_out_points},
           {"adjustment_lp_steps", o.adjustment.lp_steps},
           {"adjustment_steps", o.adjustment.steps},
+          {"confidence", o.decision.confidence},
+          {"refinement", name_of(o.merging().refinement.method)},
           {"descent_steps", o.refinement.descent_steps},
           {"annealing_steps", o.refinement.annealing_steps},
           {"seed", context.seed},

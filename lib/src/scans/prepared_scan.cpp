@@ -73,6 +73,7 @@ PreparedScan prepare_scan(const SampledScan& scan, const Resolutions& resolution
                    {},
                    {},
                    {},
+                   {},
                    {}};
   const std::string key = stream_key(scan.scan);
   out.coarse_sample =
@@ -80,7 +81,7 @@ PreparedScan prepare_scan(const SampledScan& scan, const Resolutions& resolution
   draw_fit_and_held_out(out.pyramid.level(0).cloud, options, seed, key, out.fit_sample, out.held_out_sample);
   out.moments = out.held_out_sample.points;
   out.fine_sample = draw(out.fine.cloud, options.fine_points, seed, "fine points", key);
-  out.share = make_stream(seed, "adjustment share", key)();
+  out.key = key;
   out.tcm_points = out.pyramid.level(std::min<std::size_t>(1, kNumPyramidLevels - 1)).cloud.points;
   return out;
 }

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -32,9 +33,8 @@ struct PreparedScan {
   PointMoments moments;   ///< of held_out_sample
   Cloud fine_sample;      ///< surfaces at the fine voxel, for the adjustment
   Points tcm_points;      ///< thinned to the pyramid's second level
-  /// Which of its neighbours' points it is adjusted with: drawn by its content.
-  std::size_t share = 0;
-  Sight sight{};  ///< none until make_sights(); groups of scans have none
+  std::string key;        ///< of random numbers: stream_key()
+  Sight sight{};          ///< none until make_sights(); groups of scans have none
 };
 
 /// The median over the scans of the voxel edge at which a scan has the wanted number of voxels.

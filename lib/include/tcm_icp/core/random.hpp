@@ -10,7 +10,7 @@ namespace tcm_icp {
 
 using Rng = std::mt19937_64;
 
-/// An independent stream for one stage (and one item of it, e.g. a scan's file name).
+/// An independent stream for one stage (and one item of it, e.g. stream_key() of a scan).
 Rng make_stream(std::uint64_t seed, std::string_view stage, std::string_view item = {});
 
 /// Uniform in [0, 1), 53 bits.

@@ -21,6 +21,8 @@ struct ScanMeasurements {
   double support = 0;  ///< the same, against none
   std::optional<double> other_distance;  ///< [m] rms distance to that other place; none: nothing leads elsewhere
   std::size_t num_moved = 1;             ///< scans that would move with it
+  /// Standard deviation of its points, rms, by the joint adjustment, in coarse voxels; none where that leaves it open.
+  std::optional<double> sigma_in_voxels;
   /// Of the pairs that overlap across the weakest hold, at the final poses: those of the scan, or of the group that
   /// would move with it. What holds within the group says nothing of its place.
   std::vector<double> link_log_odds;
@@ -34,10 +36,10 @@ struct ComponentReference {
   static ComponentReference of(const std::vector<ScanMeasurements>& members);
 };
 
-inline constexpr std::array<std::string_view, 17> kDecisionFeatureNames{
+inline constexpr std::array<std::string_view, 18> kDecisionFeatureNames{
     "lead",         "log_lead",  "log_overlap", "log_inlier_share", "inliers_by_set", "residual_by_set",
     "weakest_left", "mean_left", "left_across", "across_unknown",   "violations",     "opposed",
-    "space_unseen", "best_link", "mean_link",   "contradicting",    "few_agree"};
+    "space_unseen", "best_link", "mean_link",   "contradicting",    "few_agree",      "sigma"};
 using DecisionFeatures = std::array<double, kDecisionFeatureNames.size()>;
 
 /// Finite, without a unit, within bounds.
@@ -52,6 +54,7 @@ enum class Reason {
   kMisfit,        ///< its points agree less, or less closely, than those of its set do
   kSlides,        ///< it can slide without losing agreement
   kSeenThrough,   ///< scans would have seen through walls
+  kInexact,       ///< the joint adjustment leaves its pose too uncertain
   kTooFewPoints,  ///< too few points on surfaces to tell
 };
 

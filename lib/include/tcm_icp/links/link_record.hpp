@@ -14,7 +14,7 @@ namespace tcm_icp {
 
 /// Two scans whose points overlap at the final poses.
 struct LinkRecord {
-  std::size_t a = 0, b = 0;    ///< the file of a comes first by name
+  std::size_t a = 0, b = 0;    ///< by their places in the list
   AlignmentEvidence evidence;  ///< of the direction that overlaps more
   FreeSpaceEvidence free_space;
   double probability = 0;  ///< that the pose is right, by the pair alone
@@ -24,7 +24,7 @@ struct LinkRecord {
 
 /// A pose that a pair may have, found without a guess, and what became of it.
 struct LinkHypothesisRecord {
-  std::size_t a = 0, b = 0;                                 ///< the file of a comes first by name
+  std::size_t a = 0, b = 0;                                 ///< by their places in the list
   Eigen::Isometry3d T_a_b = Eigen::Isometry3d::Identity();  ///< for raw coordinates
   PoseCandidate candidate;                                  ///< the coarse pose it came from; local frames
   AlignmentEvidence evidence;                               ///< of the pair alone

@@ -1,0 +1,174 @@
+#!/usr/bin/env python3
+"""Fits the models that tell how likely a link and a scan's place are right, to simulated scans that anyone can make.
+
+  calibrate.py --out DIR [--exe TCM_ICP] [--seeds 1 2 3] [--jobs 2] [--only links|scans] [--dry-run]
+
+Makes sets of every simulated scene with several sensors (calibration/sets.py), as they are, thinned, cropped, cluttered,
+a few scans alone, with a mirrored scan and with scans of other scenes; registers each with `--confidence 0`, so that
+wrong places are reported, too; fits, and writes lib/src/links/link_model.inc, lib/src/decision/scan_model.inc,
+docs/results/calibration.csv and docs/images/reliability.png. Figures are of scenes left out of the fit, one at a time.
+Decisions follow from links: after a change of the link model build the program and run again with --only scans.
+What DIR has already is used again. Needs numpy and matplotlib; about four seconds of processor time a set.
+"""
+
+import argparse
+import csv
+import datetime
+import re
+import subprocess
+import sys
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+try:
+    import numpy as np
+except ImportError:
+    sys.exit("calibrate.py: numpy is missing: apt install python3-numpy, and run it with /usr/bin/python3")
+
+from calibration import labels, logistic, sets, softmin
+
+ROOT = Path(__file__).resolve().parent.parent
+PLACE, SIGNS = (0, 1), (1, 1, 1, 1, 1, -1, -1, -1, -1, 0, -1, -1, -1, 1, 1, -1, 1, -1)
+RIDGE = 2.0
+
+
+def make_sets(options):
+    folder = options.out / "sets"
+    jobs = [(scene, seed) for seed in options.seeds for scene in sets.SCENES]
+    with ThreadPoolExecutor(options.jobs) as pool:
+        list(pool.map(lambda j: sets.simulate(options.exe, j[0], j[1], folder / f"plain-{j[0].name}-{j[1]}"), jobs))
+    for k, (scene, seed) in enumerate(jobs):
+        plain = folder / f"plain-{scene.name}-{seed}"
+        other = folder / f"plain-{sets.SCENES[(k + 1 + seed) % len(sets.SCENES)].name}-{seed}"
+        for variant in sets.VARIANTS[1:]:
+            sets.make_variant(plain, variant, seed, other, folder / f"{variant}-{scene.name}-{seed}")
+    return folder
+
+
+def register_all(options, folder):
+    results = options.out / "results"
+
+    def register(data):
+        out = results / data.name
+        if (out / "report.json").exists():
+            return
+        results.mkdir(exist_ok=True)
+        subprocess.run([options.exe, "register", *sorted(map(str, data.glob("*.ply"))), "--out", str(out), "--threads", "1",
+                        "--confidence", "0", "--quiet"], check=False, stderr=subprocess.DEVNULL)
+        (out / "registered.ply").unlink(missing_ok=True)
+
+    with ThreadPoolExecutor(options.jobs) as pool:
+        list(pool.map(register, [d for d in sorted(folder.iterdir()) if (d / "truth.json").exists()]))
+    return results
+
+
+def names_of(header, array):
+    text = (ROOT / "lib/include/tcm_icp" / header).read_text()
+    return re.findall(r'"(\w+)"', text[text.index(array): text.index("};", text.index(array))])
+
+
+def braces(values):
+    return "{" + ", ".join(f"{v:.5g}" for v in values) + "}"
+
+
+def figures(name, log_odds, y):
+    rows, error = logistic.reliability(log_odds, y)
+    level = [np.log(p / (1 - p)) for p in (0.95, 0.99, 0.999)]
+    return {"model": name, "rows": len(y), "right": int(y.sum()),
+            "area_under_curve": round(logistic.area_under_curve(log_odds, y), 4),
+            "log_loss": round(logistic.log_loss(log_odds, y), 4), "calibration_error": round(error, 4),
+            **{f"right_above_{p}": round(float((log_odds[y > 0] >= t).mean()), 4)
+               for p, t in zip(("0.95", "0.99", "0.999"), level)},
+            **{f"wrong_above_{p}": int((log_odds[y == 0] >= t).sum())
+               for p, t in zip(("0.95", "0.99", "0.999"), level)}}, rows
+
+
+def head(options, count):
+    command = f"scripts/calibrate.py --seeds {' '.join(map(str, options.seeds))}"
+    return (f"// Made by `{command}` on {datetime.date.today()}; not to be changed by hand.\n"
+            f"// Fitted to {count} of simulated sets; docs/results/calibration.csv has the figures of scenes left out.\n")
+
+
+def fit_links(options, folder, results):
+    X, y, scene, _ = labels.load(folder, results, "links")
+    pose = len(names_of("links/link_measurements.hpp", "kLinkFeatureNames")) - 5
+    models, tables = [], []
+    for name, part in (("hypothesis", X), ("pose", X[:, :pose])):
+        constant, weights = logistic.fit(part, y)
+        models.append((constant, np.concatenate([weights, np.zeros(X.shape[1] - part.shape[1])])))
+        tables.append(figures(name, logistic.held_out(part, y, scene), y))
+    text = head(options, f"{len(y)} hypotheses ({int(y.sum())} right)")
+    for name, (constant, weights) in zip(("kHypothesisModel", "kPoseModel"), models):
+        text += f"constexpr LinkModel {name}{{{constant:.5g},\n    {braces(weights)}}};\n"
+    (ROOT / "lib/src/links/link_model.inc").write_text(text)
+    return tables
+
+
+def fit_scans(options, folder, results):
+    X, y, scene, _ = labels.load(folder, results, "scans")
+    quality = [k for k in range(X.shape[1]) if k not in PLACE]
+
+    def model():
+        return softmin.TwoWays(PLACE, quality, SIGNS, RIDGE)
+
+    held_out = np.zeros(len(y))
+    for s in np.unique(scene):
+        held_out[scene == s] = model().fit(X[scene != s], y[scene != s]).log_odds(X[scene == s])
+    whole = model().fit(X, y)
+    text = head(options, f"{len(y)} decisions ({int(y.sum())} right)") + (
+        f"const ScanModel kScanModel{{{whole.constants[0]:.5g}, {whole.constants[1]:.5g},\n"
+        f"    {braces(whole.spread(0, X.shape[1]))},\n    {braces(whole.spread(1, X.shape[1]))},\n"
+        f"    {braces(np.median(X[y > 0], 0))}}};\n")
+    (ROOT / "lib/src/decision/scan_model.inc").write_text(text)
+    return [figures("scan", held_out, y)]
+
+
+def draw(tables):
+    try:
+        import matplotlib
+    except ImportError:
+        print("calibrate.py: no diagram: apt install python3-matplotlib")
+        return
+    matplotlib.use("Agg")
+    from matplotlib import pyplot
+
+    figure, axes = pyplot.subplots(1, len(tables), figsize=(3.6 * len(tables), 3.6))
+    for axis, (table, rows) in zip(np.atleast_1d(axes), tables):
+        stated, observed, count = np.array(rows).T
+        axis.plot([0, 1], [0, 1], color="#aaaaaa", linewidth=1)
+        axis.scatter(stated, observed, s=8 + 24 * np.log10(count), color="#1f5fa8")
+        axis.set(title=f"{table['model']} (error {table['calibration_error']})", xlabel="stated probability",
+                 ylabel="observed share", xlim=(0, 1), ylim=(0, 1))
+    figure.tight_layout()
+    figure.savefig(ROOT / "docs/images/reliability.png", dpi=110)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--out", type=Path, required=True)
+    parser.add_argument("--exe", default=str(ROOT / "build/release/app/tcm-icp"))
+    parser.add_argument("--seeds", type=int, nargs="+", default=[1, 2, 3])
+    parser.add_argument("--jobs", type=int, default=2)
+    parser.add_argument("--only", choices=("links", "scans"))
+    parser.add_argument("--dry-run", action="store_true", help="say how many sets there are, and stop")
+    options = parser.parse_args()
+    count = len(options.seeds) * len(sets.SCENES) * len(sets.VARIANTS)
+    print(f"{count} sets, about {4 * count / options.jobs / 60:.0f} minutes")
+    if options.dry_run:
+        return
+    options.out.mkdir(parents=True, exist_ok=True)
+    folder = make_sets(options)
+    results = register_all(options, folder)
+    tables = fit_links(options, folder, results) if options.only != "scans" else []
+    tables += fit_scans(options, folder, results) if options.only != "links" else []
+    for table, _ in tables:
+        print(", ".join(f"{k} {v}" for k, v in table.items()))
+    with open(ROOT / "docs/results/calibration.csv", "w", newline="") as f:
+        writer = csv.DictWriter(f, tables[0][0].keys())
+        writer.writeheader()
+        writer.writerows(t for t, _ in tables)
+    draw(tables)
+
+
+if __name__ == "__main__":
+    main()
