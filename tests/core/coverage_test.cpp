@@ -114,6 +114,16 @@ TEST(Coverage, PointsOnALineAlongAnAxisCoverNothing) {
   }
 }
 
+TEST(Coverage, PointsOnAnyLineCoverNothing) {
+  Rng rng = make_stream(7, "coverage_test");
+  for (int trial = 0; trial < 5; ++trial) {
+    const Eigen::Isometry3d T = testing::random_pose(5, rng);
+    Points points;
+    for (int i = 0; i < 5000; ++i) points.push_back(T * Vector3d(kExtent_m * i / 5000, 0, 0));
+    EXPECT_EQ(coverage_m(points, kExtent_m), 0) << trial;
+  }
+}
+
 TEST(Coverage, FewPointsCoverNothing) {
   Rng rng = make_stream(8, "coverage_test");
   EXPECT_EQ(coverage_m({}, kExtent_m), 0);

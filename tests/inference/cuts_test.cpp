@@ -99,6 +99,27 @@ TEST_F(CutsTest, AGroupThatHangsByOneLinkIsACut) {
   EXPECT_NEAR(find(cuts, {3})->lead(), 4 + 7 + options_.log_poses, kOfLogOdds) << "alone it would leave 4, too";
 }
 
+// Two groups of six, each held by many weak pairs, and to one another by two that are stronger than any of those: no
+// tree that takes both has the groups as its parts.
+TEST_F(CutsTest, TheWeakestHoldBetweenTwoGroupsIsAmongThem) {
+  constexpr std::size_t kEach = 6;
+  HypothesisWorld world(2 * kEach, rng_);
+  Scans all, second;
+  for (std::size_t i = 0; i < 2 * kEach; ++i) {
+    all.push_back(i);
+    if (i >= kEach) second.push_back(i);
+    for (std::size_t j = i + 1; j < (i < kEach ? kEach : 2 * kEach); ++j) {
+      world.add(i, j, {world.hypothesis(i, j, 0.5)});
+    }
+  }
+  for (const std::size_t i : {0u, 1u}) world.add(i, kEach + i, {world.hypothesis(i, kEach + i, 1)});
+  const PairGraph graph = world.graph();
+  const Component component = world.truth(all);
+  double least = 1e300;
+  for (const Cut& cut : weakest_cuts(graph, component)) least = std::min(least, cut.lead());
+  EXPECT_LE(least, measure_cut(graph, component, second).lead() + kRounding);
+}
+
 TEST_F(CutsTest, EachPartComesOnceAscendingAndWithoutTheReference) {
   for (const auto& [a, b] : {std::pair(0u, 1u), std::pair(1u, 2u), std::pair(2u, 3u), std::pair(3u, 4u)}) add(a, b, 5);
   const auto cuts = weakest_cuts(world_.graph(), world_.truth({2, 0, 1, 3, 4}));

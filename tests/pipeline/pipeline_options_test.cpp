@@ -66,6 +66,16 @@ TEST(PipelineOptions, ValuesOutOfRangeAreRefusedNamingTheField) {
   }
 }
 
+TEST(PipelineOptions, BoundsOfInferenceAreChecked) {
+  for (const auto& set : std::vector<std::function<void(InferenceOptions&)>>{
+           [](InferenceOptions& o) { o.most_log_odds = 0; }, [](InferenceOptions& o) { o.max_starts = 0; },
+           [](InferenceOptions& o) { o.max_sweeps = 0; }}) {
+    PipelineOptions options;
+    set(options.inference);
+    EXPECT_THROW(options.validate(), InvalidOptions);
+  }
+}
+
 TEST(PipelineOptions, TheBoundsThemselvesAreValid) {
   PipelineOptions options;
   options.sampling.coarse_voxels = options.sampling.fine_voxels = 100;

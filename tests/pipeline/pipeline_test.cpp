@@ -86,6 +86,19 @@ TEST(Pipeline, RegistersScansFromFilesWithoutAGuess) {
   EXPECT_LE(testing::worst_error_m(files, result), files.scene.spacing_m / 4);
 }
 
+// A pose that a guess leads to is the one that height maps lead to: it should not count for less.
+TEST(Pipeline, ARightGuessMakesNoScanLessSure) {
+  const TempFolder folder;
+  SceneFiles files = testing::write_scene(folder.path(), kRubble, kAngle, kShift, 1);
+  const PipelineResult with = run(files, without_doubt("0.ply"));
+  files.initial.assign(3, std::nullopt);
+  const PipelineResult without = run(files, without_doubt("0.ply"));
+  ASSERT_TRUE(with.all_registered() && without.all_registered());
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_GE(with.measurements[i]->lead, without.measurements[i]->lead - 0.5) << i;  // fits end in other last digits
+  }
+}
+
 TEST(Pipeline, FromARoughGuessPosesAreAsExact) {
   const TempFolder folder;
   const SceneFiles files = three_scans(folder, 1);

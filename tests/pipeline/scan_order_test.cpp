@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <set>
 #include <string>
 
 namespace tcm_icp {
@@ -68,6 +69,25 @@ TEST(OrderByContent, AnyOrderOfTheListGivesTheSameScans) {
     std::rotate(paths.begin(), paths.begin() + 3, paths.end());
     EXPECT_EQ(names(order(contents, paths), paths), expected) << shift;
   }
+}
+
+// Each is alike the next but for rounding, but the first not the last: ties of ties are no ties.
+TEST(OrderByContent, AChainOfTiesComesInOneOrderWhateverTheList) {
+  const std::vector<std::pair<double, std::string>> scans{{1, "c"}, {1 + 0.7e-6, "b"}, {1 + 1.4e-6, "a"}};
+  std::set<std::string> orders;
+  Order list{0, 1, 2};
+  do {
+    std::vector<Content> contents;
+    std::vector<std::filesystem::path> paths;
+    for (const std::size_t i : list) {
+      contents.push_back({100, scans[i].first, 1});
+      paths.emplace_back(scans[i].second);
+    }
+    std::string names;
+    for (const std::size_t i : order(contents, paths)) names += paths[i].string();
+    orders.insert(names);
+  } while (std::next_permutation(list.begin(), list.end()));
+  EXPECT_EQ(orders.size(), 1u) << *orders.begin() << " and " << *orders.rbegin();
 }
 
 TEST(InOrder, TakesValuesAsTheOrderSays) {
