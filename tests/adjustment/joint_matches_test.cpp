@@ -87,9 +87,11 @@ TEST(Thinned, KeepsEvenlySpacedMatchesOfEachLink) {
   for (int i = 0; i < 100; ++i) {
     Correspondence m;
     m.source = Eigen::Vector3d(i, 0, 0);
+    m.target = m.source;
+    m.normal = Eigen::Vector3d::UnitZ();
     links[0].matches.push_back(m);
   }
-  links[1].matches.resize(3);
+  links[1].matches.assign(3, links[0].matches.front());
   const auto thin = thinned(links, 10);
   ASSERT_EQ(thin[0].matches.size(), 10u);
   for (int i = 0; i < 10; ++i) EXPECT_EQ(thin[0].matches[static_cast<std::size_t>(i)].source.x(), 10 * i);

@@ -131,12 +131,12 @@ TEST_F(ConfigurationTest, TheReferenceIsTheMemberWithTheMostSupport) {
 
 // Of hypotheses that agree either may be the one a scan is put by, so that with noise poses are one but for the noise.
 TEST_F(ConfigurationTest, TheOrderOfPairsAndHypothesesDoesNotMatter) {
-  for (int trial = 0; trial < 8; ++trial) {
+  for (int trial = 0; trial < 6; ++trial) {
     const double noise_m = trial % 2 == 0 ? 0 : 0.05 * kSame_m;
     HypothesisWorld world = loop(7, noise_m, rng_);
     std::vector<ComparedPair> pairs = world.pairs();
     for (auto& pair : pairs) {
-      for (int k = 0; k < 2; ++k) pair.hypotheses.push_back(world.wrong(5 * uniform01(rng_) - 1, rng_));
+      pair.hypotheses.push_back(world.wrong(5 * uniform01(rng_) - 1, rng_));
     }
     const PairGraph graph = world.graph(pairs);
     const auto expected = likeliest_components(graph);
