@@ -47,6 +47,13 @@ PipelineOptions without_doubt(const std::string& reference = {}) {
   return options;
 }
 
+// Where a test is of who is believed, but not of how sure a model has to be.
+PipelineOptions likely(const std::string& reference = {}) {
+  PipelineOptions options = with_reference(reference);
+  options.decision.confidence = 0.5;
+  return options;
+}
+
 std::string reasons(const PipelineResult& result) {
   std::string text;
   for (const auto& pose : result.poses) text += pose.file + ": " + pose.reason + "\n";
@@ -80,7 +87,7 @@ TEST(Pipeline, RegistersScansFromFilesWithoutAGuess) {
   const TempFolder folder;
   SceneFiles files = testing::write_scene(folder.path(), kRubble, kAngle, kShift, 1);
   files.initial.assign(3, std::nullopt);
-  const PipelineResult result = run(files);
+  const PipelineResult result = run(files, likely());
   ASSERT_TRUE(result.all_registered()) << reasons(result);
   // Points of one scan hardly ever meet one of another nearer. The frames are turned anyhow, 10 m from one another.
   EXPECT_LE(testing::worst_error_m(files, result), files.scene.spacing_m / 4);
@@ -255,9 +262,7 @@ TEST(Pipeline, OthersAreNoneTheWorseForAScanThatSharesNothing) {
   files.initial.assign(4, std::nullopt);
   Rng rng = make_stream(5, "pipeline_test");
   files.replace(1, testing::synthetic_scene(kThreeScans, rng).scans[0]);
-  PipelineOptions options = with_reference("0.ply");
-  options.decision.confidence = 0.5;
-  const PipelineResult result = run(files, options);
+  const PipelineResult result = run(files, likely("0.ply"));
   EXPECT_EQ(result.poses[1].status, ScanStatus::kUnregistered) << reasons(result);
   for (const std::size_t i : {2u, 3u}) {
     EXPECT_EQ(result.poses[i].status, ScanStatus::kRegistered) << reasons(result);
@@ -286,21 +291,17 @@ TEST(Pipeline, ScansThatAllShareNothingLeaveTheReferenceAlone) {
 // Two pairs of scans of two places: one pair holds together, but not with the reference.
 TEST(Pipeline, ScansThatHoldTogetherButNotWithTheReferenceKeepTheirPoses) {
   const TempFolder folder;
-  SyntheticSceneOptions four = kThreeScans;
+  SyntheticSceneOptions four = kRubble;
   four.num_scans = 4;
   SceneFiles files = testing::write_scene(folder.path(), four, kAngle, kShift, 10);
   files.initial.assign(4, std::nullopt);
-  SyntheticSceneOptions rubble = four;
-  rubble.shape = testing::SyntheticShape::kRubble;
   Rng rng = make_stream(10, "pipeline_test");
-  const auto other = testing::synthetic_scene(rubble, rng);
+  const auto other = testing::synthetic_scene(four, rng);
   for (const std::size_t i : {2u, 3u}) {
     files.replace(i, other.scans[i]);
     files.scene.T_world_scan[i] = other.T_world_scan[i];
   }
-  PipelineOptions options = with_reference("0.ply");
-  options.decision.confidence = 0.5;
-  const PipelineResult result = run(files, options);
+  const PipelineResult result = run(files, likely("0.ply"));
   EXPECT_EQ(result.poses[1].status, ScanStatus::kRegistered) << reasons(result);
   for (const std::size_t i : {2u, 3u}) {
     EXPECT_EQ(result.poses[i].status, ScanStatus::kUnregistered) << reasons(result);
@@ -318,12 +319,12 @@ TEST(Pipeline, AMirroredScanOfAPlaceWithoutSymmetryIsUnregistered) {
   const TempFolder folder;
   SceneFiles files = testing::write_scene(folder.path(), kRubble, kAngle, kShift, 6);
   files.initial.assign(3, std::nullopt);
-  const PipelineResult as_seen = run(files, with_reference("0.ply"));
+  const PipelineResult as_seen = run(files, likely("0.ply"));
   ASSERT_EQ(as_seen.poses[1].status, ScanStatus::kRegistered) << reasons(as_seen);
   Cloud mirrored = files.scene.scans[1];
   for (auto& p : mirrored.points) p.x() = -p.x();
   files.replace(1, mirrored);
-  const PipelineResult result = run(files, with_reference("0.ply"));
+  const PipelineResult result = run(files, likely("0.ply"));
   EXPECT_EQ(result.poses[1].status, ScanStatus::kUnregistered) << reasons(result);
 }
 
