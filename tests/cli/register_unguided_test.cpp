@@ -77,10 +77,12 @@ TEST_F(RegisterUnguided, PlacesEveryScanOfTheTown) {
     EXPECT_FALSE(scan.pose_in_component);
   }
   const auto report = read_json(folder() / "result/report.json");
-  for (const auto& merge : report["merges"]) {
-    if (!merge["accepted"]) continue;
-    EXPECT_GE(merge["evidence"]["links"], 1);
-    EXPECT_GT(merge["evidence"]["link_log_odds"], 2.5);
+  EXPECT_EQ(report["merges"].size(), 5u);
+  for (const auto& scan : report["scans"]) {
+    const auto& decision = scan["decision"];
+    EXPECT_TRUE(decision["reason"] == "accepted" || decision["reason"] == "the reference") << decision["reason"];
+    EXPECT_GT(decision["lead"], 0) << scan["file"];
+    EXPECT_GE(decision["support"], decision["lead"]) << scan["file"];
   }
 }
 

@@ -37,7 +37,6 @@ const std::vector<BadValue>& bad_values() {
       {"coarse_points", [](O& o) { o.placement.coarse_points = 99; }},
       {"fine_points", [](O& o) { o.placement.fine_points = 99; }},
       {"held_out_points", [](O& o) { o.placement.held_out_points = 99; }},
-      {"search_steps", [](O& o) { o.placement.search_steps = -1; }},
       {"adjustment_lp_steps", [](O& o) { o.placement.adjustment_lp_steps = -1; }},
       {"adjustment_steps", [](O& o) { o.placement.adjustment_steps = -1; }},
       {"points", [](O& o) { o.refinement.points = 19; }},
@@ -45,6 +44,8 @@ const std::vector<BadValue>& bad_values() {
       {"annealing_steps", [](O& o) { o.refinement.annealing_steps = -1; }},
       {"initial_temperature", [](O& o) { o.refinement.initial_temperature = 0; }},
       {"final_temperature", [](O& o) { o.refinement.final_temperature = 0; }},
+      {"confidence", [](O& o) { o.decision.confidence = 1; }},
+      {"confidence", [](O& o) { o.decision.confidence = std::nan(""); }},
       {"final_temperature", [](O& o) { o.refinement.final_temperature = 2 * o.refinement.initial_temperature; }},
   };
   return values;
@@ -65,12 +66,23 @@ TEST(PipelineOptions, ValuesOutOfRangeAreRefusedNamingTheField) {
   }
 }
 
+TEST(PipelineOptions, BoundsOfInferenceAreChecked) {
+  for (const auto& set : std::vector<std::function<void(InferenceOptions&)>>{
+           [](InferenceOptions& o) { o.most_log_odds = 0; }, [](InferenceOptions& o) { o.max_starts = 0; },
+           [](InferenceOptions& o) { o.max_sweeps = 0; }}) {
+    PipelineOptions options;
+    set(options.inference);
+    EXPECT_THROW(options.validate(), InvalidOptions);
+  }
+}
+
 TEST(PipelineOptions, TheBoundsThemselvesAreValid) {
   PipelineOptions options;
   options.sampling.coarse_voxels = options.sampling.fine_voxels = 100;
   options.sampling.max_surface_variation = 1.0 / 3;
-  options.placement.search_steps = options.placement.adjustment_steps = 0;
+  options.placement.adjustment_lp_steps = options.placement.adjustment_steps = 0;
   options.refinement.annealing_steps = 0;
+  options.decision.confidence = 0;
   options.refinement.final_temperature = options.refinement.initial_temperature;
   EXPECT_NO_THROW(options.validate());
 }

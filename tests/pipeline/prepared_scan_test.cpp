@@ -84,5 +84,24 @@ TEST(ChooseResolutions, GiveTheMiddleScanTheWantedVoxelsAndScaleWithTheData) {
   EXPECT_EQ(choose_resolutions(large, options, 2).coarse_m, 1024 * resolutions.coarse_m);
 }
 
+// Finer voxels would hold lines of points, or noise.
+TEST(ChooseResolutions, AreNoFinerThanWhatPointsCoverAndNoiseAllows) {
+  SampledScan scan = sampled(yard(8), "a.ply");
+  const Resolutions by_count = choose_resolutions({scan}, {}, 1);
+  scan.scan.coverage_m = 4 * by_count.coarse_m;
+  const Resolutions sparse = choose_resolutions({scan}, {}, 1);
+  EXPECT_EQ(sparse.coarse_m, scan.scan.coverage_m);
+  EXPECT_GT(sparse.fine_m, by_count.fine_m);
+  EXPECT_LE(sparse.fine_m, sparse.coarse_m);
+  scan.scan.coverage_m = 0;
+  scan.scan.noise_m = by_count.coarse_m;
+  const Resolutions noisy = choose_resolutions({scan}, {}, 1);
+  EXPECT_GT(noisy.coarse_m, 2 * scan.scan.noise_m);
+  EXPECT_GT(noisy.fine_m, by_count.fine_m);
+  EXPECT_LE(noisy.fine_m, noisy.coarse_m);
+  scan.scan.noise_m = 0.001 * by_count.fine_m;
+  EXPECT_EQ(choose_resolutions({scan}, {}, 1).coarse_m, by_count.coarse_m) << "a usual scan's noise says nothing";
+}
+
 }  // namespace
 }  // namespace tcm_icp

@@ -75,6 +75,24 @@ TEST(SampleScan, NoiseAndExtentAreMeasured) {
   EXPECT_LT(quiet.extent_m, 20);
 }
 
+// Lines 0.4 m apart on a wall, a point each 0.02 m, off it by 0.01 m: a point's nearest neighbours are of its own line,
+// whose plane may be any through the line.
+TEST(SampleScan, NormalsAreThoseOfSurfacesNotOfLinesOnThem) {
+  const test::TempFolder folder;
+  Rng rng = make_stream(6, "scan_sampling_test");
+  const Eigen::Isometry3d T = testing::random_pose(5, rng);
+  Points points;
+  for (int line = 0; line < 20; ++line) {
+    for (int k = 0; k < 400; ++k) points.push_back(T * Vector3d(0.02 * k, 0.4 * line, 0.01 * standard_normal(rng)));
+  }
+  const SampledScan s = sample_scan(write_ply(folder.path() / "a.ply", points), keep_all(), 42, 1);
+  EXPECT_GT(s.scan.coverage_m, 5 * s.scan.spacing_m);
+  EXPECT_LT(s.scan.coverage_m, 0.8);
+  std::size_t right = 0;
+  for (const auto& n : s.surface_normals) right += std::abs(n.dot(T.linear().col(2))) > std::cos(0.15) ? 1u : 0u;
+  EXPECT_GT(static_cast<double>(right) / static_cast<double>(s.surface_normals.size()), 0.9);
+}
+
 TEST(SampleScan, RoughPlacesAreNoSurfaces) {
   const test::TempFolder folder;
   Rng rng = make_stream(4, "scan_sampling_test");

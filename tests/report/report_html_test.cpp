@@ -41,8 +41,8 @@ PipelineResult three_of_four() {
   result.uncertainty.poses[1].covariance = 1e-6 * Eigen::Matrix<double, 6, 6>::Identity();
   result.graph.measure = Eigen::MatrixXd::Zero(4, 4);
   result.graph.adjacency.resize(4);
-  result.links.push_back({0, 1, {}, {}, "accepted", "agrees", LinkStrength{}});
-  result.links.push_back({1, 2, {}, {}, "rejected", "only 1 % agree", {}});
+  result.links.push_back({0, 1, {}, {}, 0.97, "accepted", "agrees", LinkStrength{}});
+  result.links.push_back({1, 2, {}, {}, 0.02, "rejected", "only 1 % agree", {}});
   LinkHypothesisRecord contradicted;
   contradicted.a = 0;
   contradicted.b = 2;
@@ -138,6 +138,33 @@ TEST(ReportJson, IsJsonWhateverTheFilesAreCalled) {
   EXPECT_EQ(read["scans"][2]["middle_m"][0], 20.0);
   EXPECT_TRUE(read["scans"][3]["middle_m"].is_null());
   EXPECT_TRUE(read["started"].is_null());
+}
+
+TEST(ReportJson, SaysWhatEachScanWasDecidedFrom) {
+  PipelineResult result = three_of_four();
+  result.measurements.resize(4);
+  result.decisions.resize(4);
+  result.measurements[1].emplace().lead = 7;
+  result.measurements[1]->support = 9;
+  result.measurements[1]->other_distance = 12.5;
+  result.measurements[1]->num_moved = 3;
+  result.decisions[1].reason = Reason::kAmbiguous;
+  result.decisions[1].probability = 0.4;
+  result.decisions[1].features[0] = 7;
+  result.measurements[2].emplace();
+  result.decisions[3].reason = Reason::kNoLink;
+  const Json scans = Json::parse(report_json(result, {}, {}, {}))["scans"];
+  const Json& decision = scans[1]["decision"];
+  EXPECT_EQ(decision["reason"], std::string(to_string(Reason::kAmbiguous)));
+  EXPECT_EQ(decision["probability"], 0.4);
+  EXPECT_EQ(decision["lead"], 7);
+  EXPECT_EQ(decision["support"], 9);
+  EXPECT_EQ(decision["other_place_m"], 12.5);
+  EXPECT_EQ(decision["moves_with"], 2) << "beside itself";
+  EXPECT_EQ(decision["features"].size(), kDecisionFeatureNames.size());
+  EXPECT_TRUE(scans[2]["decision"]["other_place_m"].is_null());
+  EXPECT_EQ(scans[3]["decision"]["reason"], std::string(to_string(Reason::kNoLink)));
+  EXPECT_FALSE(scans[3]["decision"].contains("lead")) << "nothing was measured";
 }
 
 }  // namespace

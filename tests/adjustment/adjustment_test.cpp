@@ -1,4 +1,4 @@
-#include "pipeline/adjustment.hpp"
+#include "adjustment/adjustment.hpp"
 
 #include <gtest/gtest.h>
 

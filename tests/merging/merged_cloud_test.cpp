@@ -1,4 +1,4 @@
-#include "pipeline/merged_cloud.hpp"
+#include "merging/merged_cloud.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,141 @@
+#include "inference/compared_pairs.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "inference/hypothesis_world.hpp"
+#include "support/matchers.hpp"
+
+namespace tcm_icp {
+namespace {
+
+using testing::HypothesisWorld;
+using testing::kSame_m;
+
+class ComparedPairsTest : public ::testing::Test {
+ protected:
+  double support(double off_m) const {
+    return world_.graph().support_of(3, world_.T_target_source(0, 3) * Eigen::Translation3d(0, off_m, 0),
+                                     world_.truth({0, 1, 2}));
+  }
+
+  Rng rng_ = make_stream(1, "compared_pairs_test");
+  HypothesisWorld world_{5, rng_};
+  InferenceOptions options_;
+};
+
+TEST_F(ComparedPairsTest, AComponentCountsAndListsItsMembers) {
+  const Component one = component_of_one(3, 5);
+  EXPECT_EQ(one.reference, 3u);
+  EXPECT_EQ(one.size(), 1u);
+  EXPECT_EQ(one.members(), std::vector<std::size_t>{3});
+  EXPECT_TRUE(one.T_reference_scan[3]->isApprox(Eigen::Isometry3d::Identity(), 0));
+  EXPECT_FALSE(one.has(2));
+  EXPECT_EQ(world_.truth({4, 0, 2}).members(), (std::vector<std::size_t>{0, 2, 4}));
+}
+
+// log(1 + e^(l + p)) - p, which is l + log(1 + e^-(l + p)): within e^-(3 + 3) of l from l = 3 on.
+TEST_F(ComparedPairsTest, ASingleHypothesisIsWorthItsLogOdds) {
+  for (const double log_odds : {3.0, 4.5, 7.0}) {
+    HypothesisWorld world(2, rng_);
+    world.add(0, 1, {world.hypothesis(0, 1, log_odds)});
+    const double support = world.graph().support_of(1, world.T_target_source(0, 1), world.truth({0}));
+    EXPECT_NEAR(support, log_odds, 0.0025);
+    EXPECT_GE(support, log_odds);
+  }
+}
+
+TEST_F(ComparedPairsTest, EveryFurtherHypothesisThatAgreesAddsItsLogOddsAndLogPoses) {
+  ASSERT_GT(options_.log_poses, 1);
+  world_.add(0, 3, {world_.hypothesis(0, 3, 4)});
+  const double one = support(0);
+  world_.add(1, 3, {world_.aside(1, 3, 5, 0.4 * kSame_m)});
+  const double two = support(0);
+  EXPECT_NEAR(two - one, 5 + options_.log_poses, 0.001);
+  world_.add(2, 3, {world_.aside(2, 3, 3, -0.4 * kSame_m)});
+  EXPECT_NEAR(support(0) - two, 3 + options_.log_poses, 0.003);
+}
+
+// Two of them by chance at one place of e^3 is less likely than either being right.
+TEST_F(ComparedPairsTest, WeakHypothesesThatAgreeAreWorthMoreThanTheirSum) {
+  world_.add(0, 3, {world_.hypothesis(0, 3, -1)});
+  EXPECT_LT(support(0), 0);
+  world_.add(1, 3, {world_.hypothesis(1, 3, -1)});
+  EXPECT_GT(support(0), 0);
+}
+
+TEST_F(ComparedPairsTest, HypothesesThatLeadElsewhereCountNothing) {
+  world_.add(0, 3, {world_.hypothesis(0, 3, 4)});
+  const double alone = support(0);
+  world_.add(1, 3, {world_.aside(1, 3, 8, 10)});
+  world_.add(2, 3, {});
+  world_.add(3, 4, {world_.aside(3, 4, 8, 10)});  // of a scan that is no member
+  EXPECT_EQ(support(0), alone);
+  EXPECT_NEAR(support(10), 8, 0.001);
+  EXPECT_EQ(support(30), -options_.log_poses) << "where none leads";
+}
+
+TEST_F(ComparedPairsTest, OfAPairsOwnHypothesesTheLikeliestThatAgreesCounts) {
+  world_.add(0, 3, {world_.aside(0, 3, 8, 10), world_.aside(0, 3, 3, 0.2 * kSame_m), world_.hypothesis(0, 3, 5)});
+  EXPECT_NEAR(support(0), 5, 0.001);
+}
+
+TEST_F(ComparedPairsTest, NoPairIsSurerThanTheMost) {
+  world_.add(0, 3, {world_.hypothesis(0, 3, options_.most_log_odds)});
+  world_.add(1, 3, {world_.aside(1, 3, 1e9, 10)});
+  EXPECT_EQ(support(10), support(0));
+  EXPECT_TRUE(std::isfinite(support(10)));
+}
+
+TEST_F(ComparedPairsTest, SupportOfAPairIsOfTheirPosesAgainstEachOther) {
+  world_.add(1, 3, {world_.hypothesis(1, 3, 4)});
+  const PairGraph graph = world_.graph();
+  const auto support = [&](const Eigen::Isometry3d& T_frame, double off_m) {
+    return graph.support(graph.pairs()[0], T_frame * world_.T_target_source(0, 1),
+                         T_frame * world_.T_target_source(0, 3) * Eigen::Translation3d(0, off_m, 0));
+  };
+  const Eigen::Isometry3d anywhere = testing::random_pose(30, rng_);
+  EXPECT_DOUBLE_EQ(support(Eigen::Isometry3d::Identity(), 0), std::log1p(std::exp(4 + options_.log_poses)));
+  EXPECT_DOUBLE_EQ(support(anywhere, 0), support(Eigen::Isometry3d::Identity(), 0));
+  EXPECT_GT(support(anywhere, 0.9 * kSame_m), 0);
+  EXPECT_EQ(support(anywhere, 1.1 * kSame_m), 0);
+}
+
+// The same hypothesis serves both of its scans: T_a_b one way, its inverse the other.
+TEST_F(ComparedPairsTest, EitherScanOfAPairIsLedToByTheOther) {
+  world_.add(1, 3, {world_.hypothesis(1, 3, 4)});
+  for (const auto& [fixed, scan] : {std::pair(1u, 3u), std::pair(3u, 1u)}) {
+    const auto poses = world_.graph().poses_of(scan, world_.truth({fixed}));
+    ASSERT_EQ(poses.size(), 1u);
+    EXPECT_TRUE(testing::is_pose_near(world_.T_target_source(fixed, scan), poses[0], 1e-9, 1e-9));
+    EXPECT_NEAR(world_.graph().support_of(scan, poses[0], world_.truth({fixed})), 4, 0.001);
+  }
+}
+
+TEST_F(ComparedPairsTest, PosesOfAScanComeOnceInTheOrderOfThePairs) {
+  world_.add(0, 3, {world_.aside(0, 3, 1, 10), world_.hypothesis(0, 3, 5)});
+  world_.add(1, 3, {world_.aside(1, 3, 8, 0.5 * kSame_m), world_.aside(1, 3, 2, -20)});
+  world_.add(3, 4, {world_.aside(3, 4, 8, 30)});  // no member
+  const auto poses = world_.graph().poses_of(3, world_.truth({0, 1, 2}));
+  ASSERT_EQ(poses.size(), 3u) << "poses less than same_m apart are one";
+  const std::vector<double> off_m{10, 0, -20};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Eigen::Isometry3d expected = world_.T_target_source(0, 3) * Eigen::Translation3d(0, off_m[k], 0);
+    EXPECT_TRUE(testing::is_pose_near(expected, poses[k], 1e-9, 1e-9)) << k;
+  }
+}
+
+TEST_F(ComparedPairsTest, WhatCanChangeNothingIsLeftOut) {
+  world_.add(0, 1, {world_.hypothesis(0, 1, -50), world_.hypothesis(0, 1, 2)});
+  world_.add(0, 2, {world_.hypothesis(0, 2, -50)});
+  world_.add(1, 2, {});
+  const PairGraph graph = world_.graph();
+  ASSERT_EQ(graph.pairs().size(), 1u);
+  EXPECT_EQ(graph.pairs()[0].hypotheses.size(), 1u);
+  EXPECT_EQ(graph.pairs_of(0), std::vector<std::size_t>{0});
+  EXPECT_TRUE(graph.pairs_of(2).empty());
+}
+
+}  // namespace
+}  // namespace tcm_icp

@@ -1,0 +1,184 @@
+#include "inference/cuts.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numbers>
+
+#include "inference/hypothesis_world.hpp"
+#include "support/matchers.hpp"
+
+namespace tcm_icp {
+namespace {
+
+using Eigen::Isometry3d;
+using testing::HypothesisWorld;
+using Scans = std::vector<std::size_t>;
+
+constexpr double kRounding = 1e-9;
+
+// Of log(1 + e^(l + 3)) - 3 against l, from l = 3 on.
+constexpr double kOfLogOdds = 0.0025;
+
+class CutsTest : public ::testing::Test {
+ protected:
+  void add(std::size_t a, std::size_t b, double log_odds) { world_.add(a, b, {world_.hypothesis(a, b, log_odds)}); }
+  static const Cut* find(const std::vector<Cut>& cuts, const Scans& moved) {
+    const auto cut = std::find_if(cuts.begin(), cuts.end(), [&](const Cut& c) { return c.moved == moved; });
+    return cut == cuts.end() ? nullptr : &*cut;
+  }
+
+  Rng rng_ = make_stream(1, "cuts_test");
+  HypothesisWorld world_{6, rng_};
+  InferenceOptions options_;
+};
+
+TEST_F(CutsTest, TheLeadOfAScanWithNoOtherPlaceIsItsSupport) {
+  add(0, 1, 6);
+  add(0, 2, 4);
+  add(1, 2, 5);
+  const Component component = world_.truth({0, 1, 2});
+  const Cut cut = measure_cut(world_.graph(), component, {2});
+  EXPECT_EQ(cut.moved, Scans{2});
+  EXPECT_NEAR(cut.support, 4 + 5 + options_.log_poses, kOfLogOdds);
+  EXPECT_EQ(cut.lead(), cut.support);
+  EXPECT_FALSE(cut.other_motion);
+  EXPECT_DOUBLE_EQ(cut.support, world_.graph().support_of(2, *component.T_reference_scan[2], component));
+}
+
+TEST_F(CutsTest, TheOtherPlaceOfAScanLowersItsLead) {
+  add(0, 1, 6);
+  add(0, 2, 6);
+  world_.add(1, 2, {world_.aside(1, 2, 4, 7)});
+  const Component component = world_.truth({0, 1, 2});
+  const Cut cut = measure_cut(world_.graph(), component, {2});
+  EXPECT_NEAR(cut.support, 6, kOfLogOdds);
+  EXPECT_NEAR(cut.other_support, 4, kOfLogOdds);
+  EXPECT_NEAR(cut.lead(), 2, 2 * kOfLogOdds);
+  ASSERT_TRUE(cut.other_motion);
+  const Isometry3d& T = *component.T_reference_scan[2];
+  EXPECT_TRUE(testing::is_pose_near(T * Eigen::Translation3d(0, 7, 0), *cut.other_motion * T, kRounding, kRounding));
+  EXPECT_NEAR(rms_displacement(T.inverse() * *cut.other_motion * T, world_.points()), 7, kRounding);
+}
+
+// Less likely than that all hypotheses across are wrong.
+TEST_F(CutsTest, AnotherPlaceThatIsNoneTakesNothingAway) {
+  add(0, 1, 6);
+  world_.add(0, 1, {world_.aside(0, 1, -1, 7)});
+  const Cut cut = measure_cut(world_.graph(), world_.truth({0, 1}), {1});
+  ASSERT_TRUE(cut.other_motion);
+  EXPECT_LT(cut.other_support, 0);
+  EXPECT_EQ(cut.lead(), cut.support);
+}
+
+// Of two other places, by how much the likelier one has.
+TEST_F(CutsTest, TheBestOtherPlaceCounts) {
+  add(0, 2, 6);
+  world_.add(0, 1, {world_.hypothesis(0, 1, 6)});
+  world_.add(1, 2, {world_.aside(1, 2, 3, 7), world_.aside(1, 2, 5, -9), world_.aside(1, 2, 4, 20)});
+  const Component component = world_.truth({0, 1, 2});
+  const Cut cut = measure_cut(world_.graph(), component, {2});
+  EXPECT_NEAR(cut.other_support, 5, kOfLogOdds);
+  const Isometry3d& T = *component.T_reference_scan[2];
+  EXPECT_TRUE(testing::is_pose_near(T * Eigen::Translation3d(0, -9, 0), *cut.other_motion * T, kRounding, kRounding));
+}
+
+TEST_F(CutsTest, AGroupThatHangsByOneLinkIsACut) {
+  add(0, 1, 7);
+  add(0, 2, 7);
+  add(1, 2, 7);
+  add(2, 3, 4);
+  add(3, 4, 7);
+  const auto cuts = weakest_cuts(world_.graph(), world_.truth({0, 1, 2, 3, 4}));
+  const Cut* group = find(cuts, {3, 4});
+  ASSERT_NE(group, nullptr);
+  EXPECT_NEAR(group->lead(), 4, kOfLogOdds);
+  for (const Cut& cut : cuts) EXPECT_GE(cut.lead(), group->lead() - kRounding) << "no other is held by less";
+  for (const std::size_t i : {1u, 2u, 3u, 4u}) EXPECT_NE(find(cuts, {i}), nullptr) << i;
+  EXPECT_EQ(find(cuts, {0}), nullptr) << "the reference does not move";
+  EXPECT_NEAR(find(cuts, {3})->lead(), 4 + 7 + options_.log_poses, kOfLogOdds) << "alone it would leave 4, too";
+}
+
+// Two groups of six, each held by many weak pairs, and to one another by two that are stronger than any of those: no
+// tree that takes both has the groups as its parts.
+TEST_F(CutsTest, TheWeakestHoldBetweenTwoGroupsIsAmongThem) {
+  constexpr std::size_t kEach = 6;
+  HypothesisWorld world(2 * kEach, rng_);
+  Scans all, second;
+  for (std::size_t i = 0; i < 2 * kEach; ++i) {
+    all.push_back(i);
+    if (i >= kEach) second.push_back(i);
+    for (std::size_t j = i + 1; j < (i < kEach ? kEach : 2 * kEach); ++j) {
+      world.add(i, j, {world.hypothesis(i, j, 0.5)});
+    }
+  }
+  for (const std::size_t i : {0u, 1u}) world.add(i, kEach + i, {world.hypothesis(i, kEach + i, 1)});
+  const PairGraph graph = world.graph();
+  const Component component = world.truth(all);
+  double least = 1e300;
+  for (const Cut& cut : weakest_cuts(graph, component)) least = std::min(least, cut.lead());
+  EXPECT_LE(least, measure_cut(graph, component, second).lead() + kRounding);
+}
+
+TEST_F(CutsTest, EachPartComesOnceAscendingAndWithoutTheReference) {
+  for (const auto& [a, b] : {std::pair(0u, 1u), std::pair(1u, 2u), std::pair(2u, 3u), std::pair(3u, 4u)}) add(a, b, 5);
+  const auto cuts = weakest_cuts(world_.graph(), world_.truth({2, 0, 1, 3, 4}));
+  std::vector<Scans> parts;
+  for (const Cut& cut : cuts) {
+    EXPECT_TRUE(std::is_sorted(cut.moved.begin(), cut.moved.end()));
+    EXPECT_EQ(std::count(cut.moved.begin(), cut.moved.end(), 2u), 0);
+    parts.push_back(cut.moved);
+  }
+  std::sort(parts.begin(), parts.end());
+  EXPECT_EQ(parts, (std::vector<Scans>{{0}, {0, 1}, {1}, {3}, {3, 4}, {4}}));
+}
+
+TEST_F(CutsTest, AGroupsTwinTurnedByHalfATurnIsItsOtherMotion) {
+  const Isometry3d turned(Eigen::AngleAxisd(std::numbers::pi, Eigen::Vector3d::UnitZ()));
+  add(0, 1, 7);
+  add(2, 3, 7);
+  world_.add(1, 2, {world_.hypothesis(1, 2, 5), world_.hypothesis(1, 2, 4.5, turned)});
+  const Component component = world_.truth({0, 1, 2, 3});
+  const auto cuts = weakest_cuts(world_.graph(), component);
+  const Cut* group = find(cuts, {2, 3});
+  ASSERT_NE(group, nullptr);
+  EXPECT_NEAR(group->lead(), 0.5, 2 * kOfLogOdds);
+  ASSERT_TRUE(group->other_motion);
+  EXPECT_NEAR(rotation_angle_rad(group->other_motion->linear()), std::numbers::pi, 1e-6);
+  const Isometry3d& T = *component.T_reference_scan[2];
+  EXPECT_TRUE(testing::is_pose_near(T * turned, *group->other_motion * T, kRounding, kRounding));
+}
+
+// The twin of a group is told by all links across: one of them may not have it.
+TEST_F(CutsTest, LinksAcrossThatDoNotHaveTheTwinSpeakForThePoses) {
+  const Isometry3d turned(Eigen::AngleAxisd(std::numbers::pi, Eigen::Vector3d::UnitZ()));
+  add(0, 1, 7);
+  add(2, 3, 7);
+  world_.add(1, 2, {world_.hypothesis(1, 2, 5), world_.hypothesis(1, 2, 5, turned)});
+  add(0, 3, 3);
+  const Cut cut = measure_cut(world_.graph(), world_.truth({0, 1, 2, 3}), {2, 3});
+  EXPECT_NEAR(cut.lead(), 3 + options_.log_poses, 2 * kOfLogOdds);
+}
+
+TEST_F(CutsTest, TheReferenceByItselfCanBeMeasured) {
+  add(0, 1, 4);
+  add(0, 2, 5);
+  add(1, 2, 7);
+  const Cut cut = measure_cut(world_.graph(), world_.truth({0, 1, 2}), {0});
+  EXPECT_NEAR(cut.lead(), 4 + 5 + options_.log_poses, kOfLogOdds);
+}
+
+TEST_F(CutsTest, AScanThatNothingHoldsHasANegativeLead) {
+  add(0, 1, 6);
+  const Cut cut = measure_cut(world_.graph(), world_.truth({0, 1, 2}), {2});
+  EXPECT_EQ(cut.lead(), -options_.log_poses);
+  EXPECT_FALSE(cut.other_motion);
+}
+
+TEST_F(CutsTest, OneScanAloneHasNoCuts) {
+  add(0, 1, 6);
+  EXPECT_TRUE(weakest_cuts(world_.graph(), component_of_one(0, 6)).empty());
+}
+
+}  // namespace
+}  // namespace tcm_icp

@@ -1,0 +1,175 @@
+#include "links/hypotheses.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "links/measured_links.hpp"
+#include "support/matchers.hpp"
+#include "support/random_points.hpp"
+#include "support/synthetic_scene.hpp"
+
+namespace tcm_icp {
+namespace {
+
+using Eigen::Isometry3d;
+using testing::kNoise_m;
+using testing::kVoxel_m;
+using Pairs = std::vector<std::pair<std::size_t, std::size_t>>;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// Four scans of one place, each in its own frame.
+class HypothesisSetTest : public ::testing::Test {
+ protected:
+  HypothesisSetTest() {
+    for (int i = 0; i < 4; ++i) T_.push_back(testing::random_pose(30, rng_));
+    const Points points = testing::random_points(50, 10, rng_);
+    set_.emplace(kVoxel_m, kNoise_m, std::vector<PointMoments>(4, PointMoments(points)));
+  }
+
+  /// The truth with scan b put aside; agrees at `consensus` of its points.
+  LinkHypothesis aside(std::size_t a, std::size_t b, double off_m, double consensus = 0.5) const {
+    LinkHypothesis h;
+    h.T_a_b = T_[a].inverse() * T_[b] * Eigen::Translation3d(0, off_m, 0);
+    h.measurements = testing::usual_link();
+    h.measurements.evidence.inlier_share = 1;
+    h.measurements.evidence.overlap = consensus;
+    h.candidate.margin = 1.5;
+    return h;
+  }
+  const std::vector<LinkHypothesis>& of(std::size_t a, std::size_t b) const { return set_->pairs().at({a, b}); }
+
+  Rng rng_ = make_stream(1, "hypotheses_test");
+  std::vector<Isometry3d> T_;
+  std::optional<HypothesisSet> set_;
+};
+
+TEST_F(HypothesisSetTest, AKnownPoseIsNotAddedAgain) {
+  const double same_m = set_->same_m();
+  EXPECT_DOUBLE_EQ(same_m, 4 * kVoxel_m);
+  set_->add(0, 1, {aside(0, 1, 0, 0.5)});
+  set_->add(0, 1, {aside(0, 1, 0.4 * same_m, 0.9), aside(0, 1, 2 * same_m), aside(0, 1, 2.1 * same_m)});
+  ASSERT_EQ(of(0, 1).size(), 2u);
+  EXPECT_EQ(of(0, 1)[0].measurements.evidence.overlap, 0.5) << "it is left as it is";
+  set_->add(0, 2, {aside(0, 2, 0)});
+  EXPECT_EQ(of(0, 2).size(), 1u) << "of another pair";
+}
+
+TEST_F(HypothesisSetTest, APairComparedInVainIsKnown) {
+  set_->add(1, 3, {});
+  ASSERT_EQ(set_->pairs().count({1, 3}), 1u);
+  EXPECT_TRUE(of(1, 3).empty());
+  set_->score();
+  EXPECT_EQ(set_->log_odds(1, 3), -kInfinity);
+  EXPECT_EQ(set_->log_odds(0, 1), -kInfinity) << "as one that was not compared";
+}
+
+TEST_F(HypothesisSetTest, ScoringPutsTheLikeliestFirst) {
+  LinkHypothesis terrible = aside(0, 1, 5);
+  terrible.measurements = testing::terrible_link();
+  set_->add(0, 1, {terrible, aside(0, 1, 0, 0.7), aside(0, 1, -5, 0.2)});
+  set_->score();
+  ASSERT_EQ(of(0, 1).size(), 3u);
+  EXPECT_TRUE(testing::is_pose_near(terrible.T_a_b, of(0, 1).back().T_a_b, 0, 0));
+  for (std::size_t k = 1; k < 3; ++k) EXPECT_GE(of(0, 1)[k - 1].log_odds, of(0, 1)[k].log_odds);
+  EXPECT_GT(of(0, 1).front().log_odds, of(0, 1).back().log_odds);
+  EXPECT_EQ(set_->log_odds(0, 1), of(0, 1).front().log_odds);
+  EXPECT_EQ(set_->log_odds(1, 0), set_->log_odds(0, 1)) << "in either order";
+}
+
+TEST_F(HypothesisSetTest, TheSecondBestIsOfClearlyDifferentPosesOfThePair) {
+  const double same_m = set_->same_m();
+  set_->add(0, 1, {aside(0, 1, 0, 0.6), aside(0, 1, 0.8 * same_m, 0.5), aside(0, 1, 10 * same_m, 0.3)});
+  set_->add(0, 2, {aside(0, 2, 0, 0.9)});
+  set_->score();
+  for (const LinkHypothesis& h : of(0, 1)) {
+    const double own = h.measurements.evidence.consensus();
+    EXPECT_NEAR(h.second_best_ratio, own == 0.3 ? 2 : 0.3 / own, 1e-12) << own;
+  }
+  EXPECT_EQ(of(0, 2)[0].second_best_ratio, 0) << "there is none";
+}
+
+TEST_F(HypothesisSetTest, WhatAgreesNowhereHasAnInfinitelyBetterSecond) {
+  set_->add(0, 1, {aside(0, 1, 0, 0), aside(0, 1, 9, 0.4)});
+  set_->add(0, 2, {aside(0, 2, 0, 0), aside(0, 2, 9, 0)});
+  set_->score();
+  for (const LinkHypothesis& h : of(0, 1)) {
+    EXPECT_EQ(h.second_best_ratio, h.measurements.evidence.overlap > 0 ? 0 : kInfinity);
+    EXPECT_TRUE(std::isfinite(h.log_odds));
+  }
+  for (const LinkHypothesis& h : of(0, 2)) EXPECT_EQ(h.second_best_ratio, 0);
+}
+
+// They are relative to what the set's better hypotheses show.
+TEST_F(HypothesisSetTest, ScoringComparesWithTheWholeSet) {
+  set_->add(0, 1, {aside(0, 1, 0)});
+  set_->score();
+  const double before = set_->reference().typical_residual_m;
+  LinkHypothesis closer = aside(2, 3, 0, 0.9);
+  closer.measurements.evidence.median_residual_m /= 5;
+  set_->add(2, 3, {closer});
+  set_->score();
+  EXPECT_LT(set_->reference().typical_residual_m, before);
+  EXPECT_EQ(set_->reference().voxel_m, kVoxel_m);
+}
+
+TEST_F(HypothesisSetTest, TheGraphHasThePairsOfOpenScans) {
+  for (const auto& [a, b] : Pairs{{0, 1}, {0, 3}, {1, 2}}) set_->add(a, b, {aside(a, b, 0)});
+  set_->score();
+  const PairGraph graph = set_->graph({true, true, true, false}, {});
+  ASSERT_EQ(graph.pairs().size(), 2u);
+  EXPECT_EQ(graph.num_scans(), 4u) << "positions are those of the set";
+  EXPECT_EQ(graph.pairs()[1].a, 1u);
+  EXPECT_EQ(graph.pairs()[1].b, 2u);
+  EXPECT_EQ(graph.pairs()[1].hypotheses[0].log_odds, set_->log_odds(1, 2));
+  const Isometry3d& T = graph.pairs()[1].hypotheses[0].T_a_b;
+  EXPECT_TRUE(graph.same_pose(2, T, T * Eigen::Translation3d(0.9 * set_->same_m(), 0, 0)));
+  EXPECT_FALSE(graph.same_pose(2, T, T * Eigen::Translation3d(1.1 * set_->same_m(), 0, 0)));
+}
+
+// Of pairs of the first three scans, as the true poses have them.
+class WithoutContradicted : public HypothesisSetTest {
+ protected:
+  void compare(std::size_t a, std::size_t b, double off_m) { set_->add(a, b, {aside(a, b, off_m)}); }
+  Pairs kept() const { return set_->without_contradicted(all_, T_); }
+  const Pairs all_{{0, 1}, {1, 2}, {0, 2}};
+};
+
+TEST_F(WithoutContradicted, APairWhoseHypothesesLeadElsewhereIsLeftOut) {
+  compare(0, 1, 0.1);
+  compare(1, 2, -0.1);
+  compare(0, 2, 3);
+  EXPECT_EQ(kept(), (Pairs{{0, 1}, {1, 2}}));
+}
+
+TEST_F(WithoutContradicted, APairComparedInVainIsLeftOut) {
+  compare(0, 1, 0);
+  compare(1, 2, 0);
+  set_->add(0, 2, {});
+  EXPECT_EQ(kept(), (Pairs{{0, 1}, {1, 2}}));
+}
+
+TEST_F(WithoutContradicted, NotWhereItAloneConnectsItsScans) {
+  compare(0, 1, 0);
+  compare(1, 2, 3);
+  compare(0, 2, 3);
+  EXPECT_EQ(kept(), all_);
+}
+
+TEST_F(WithoutContradicted, PairsThatWereNotComparedStay) {
+  compare(0, 1, 0);
+  compare(1, 2, 0);
+  EXPECT_EQ(kept(), all_);
+}
+
+TEST_F(WithoutContradicted, TheRightOneOfSeveralHypothesesIsEnough) {
+  compare(0, 1, 0);
+  compare(1, 2, 0);
+  set_->add(0, 2, {aside(0, 2, 3), aside(0, 2, 0.1)});
+  EXPECT_EQ(kept(), all_);
+}
+
+}  // namespace
+}  // namespace tcm_icp

@@ -1,0 +1,154 @@
+#include "merging/tcm_order.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "merging/merged_cloud.hpp"
+#include "pipeline/prepared_scene.hpp"
+#include "tcm_icp/graph/correspondence_measure.hpp"
+
+namespace tcm_icp {
+namespace {
+
+// Scans on an ellipse, each of some 9 m around: neighbours overlap more than opposite ones. Scan 0 is merged.
+class TcmOrderTest : public ::testing::Test {
+ protected:
+  TcmOrderTest() {
+    MergedCloud merged(s_.resolutions.coarse_m);
+    merged.add(s_.scans[0].pyramid.level(0).cloud, Eigen::Isometry3d::Identity());
+    cloud_.emplace(merged.pyramid());
+    for (const std::size_t i : {3u, 1u, 4u, 2u}) choices_.push_back({i, s_.scene.T_target_source(0, i)});
+  }
+  std::size_t next(MergeOrder wanted, Profile profile = Profile::kRobust) {
+    options_.merge_order = wanted;
+    options_.profile = profile;
+    found_ = TcmOrder(s_.scans, options_, context_).next(*cloud_, choices_);
+    return choices_[found_.position].scan;
+  }
+  std::vector<TcmTerms> robust_terms() const {
+    std::vector<TcmTerms> terms;
+    const RobustTcmCloud s(cloud_->level(1).cloud.points);
+    for (const auto& c : choices_) {
+      terms.push_back(robust_tcm_terms(s, RobustTcmCloud(s_.scans[c.scan].tcm_points), c.T_reference_scan));
+    }
+    return terms;
+  }
+  std::vector<TcmTerms> paper_terms() const {
+    std::vector<TcmTerms> terms;
+    const TcmCloud s(cloud_->level(0).cloud.points);
+    for (const auto& c : choices_) {
+      terms.push_back(tcm_terms(s, TcmCloud(s_.scans[c.scan].pyramid.level(0).cloud.points), c.T_reference_scan));
+    }
+    return terms;
+  }
+  static std::size_t least(const std::vector<TcmTerms>& terms) {
+    return static_cast<std::size_t>(
+        std::min_element(terms.begin(), terms.end(),
+                         [](const TcmTerms& a, const TcmTerms& b) { return a.tau() < b.tau(); }) -
+        terms.begin());
+  }
+
+  Rng rng_ = make_stream(1, "tcm_order_test");
+  const testing::PreparedScene s_ =
+      testing::prepared_scene({.num_scans = 5, .points_per_scan = 3000, .range_m = 9, .noise_m = 0.02}, rng_);
+  std::optional<ScanPyramid> cloud_;
+  std::vector<MergeChoice> choices_;
+  PipelineOptions options_;
+  RunContext context_;
+  TcmOrder::Next found_;
+};
+
+TEST_F(TcmOrderTest, TheLeastTauIsNext) {
+  const auto terms = robust_terms();
+  for (const MergeOrder wanted : {MergeOrder::kTcm, MergeOrder::kRobustTcm}) {
+    next(wanted);
+    EXPECT_EQ(found_.position, least(terms));
+    EXPECT_EQ(found_.terms.tau(), terms[found_.position].tau());
+    EXPECT_GT(found_.terms.tau(), 0);
+  }
+}
+
+TEST_F(TcmOrderTest, TcmIsThePapersWhereItsProfileOrTheOrderAsksForIt) {
+  const auto terms = paper_terms();
+  ASSERT_NE(terms[least(terms)].tau(), robust_terms()[least(terms)].tau());
+  for (const auto& [order, profile] :
+       {std::pair(MergeOrder::kTcm, Profile::kPaper), std::pair(MergeOrder::kPaperTcm, Profile::kPaper),
+        std::pair(MergeOrder::kPaperTcm, Profile::kRobust)}) {
+    next(order, profile);
+    EXPECT_EQ(found_.terms.tau(), terms[found_.position].tau());
+    EXPECT_EQ(found_.terms.tau(), terms[least(terms)].tau());
+  }
+  next(MergeOrder::kRobustTcm, Profile::kPaper);
+  EXPECT_EQ(found_.terms.tau(), robust_terms()[found_.position].tau());
+}
+
+TEST_F(TcmOrderTest, TheOrderOfTheChoicesDecidesNothing) {
+  const std::size_t scan = next(MergeOrder::kTcm);
+  std::reverse(choices_.begin(), choices_.end());
+  EXPECT_EQ(next(MergeOrder::kTcm), scan);
+}
+
+TEST_F(TcmOrderTest, ByOverlapTheLargestIsNext) {
+  const PyramidLevel& s = cloud_->level(1);
+  std::vector<double> shares;
+  for (const auto& c : choices_) {
+    const PyramidLevel& scan = s_.scans[c.scan].pyramid.level(1);
+    shares.push_back(
+        overlap({s.cloud.points, s.index}, {scan.cloud.points, scan.index}, c.T_reference_scan, 2 * s.voxel_size_m));
+  }
+  ASSERT_LT(*std::min_element(shares.begin(), shares.end()), *std::max_element(shares.begin(), shares.end()));
+  next(MergeOrder::kOverlap);
+  EXPECT_EQ(shares[found_.position], *std::max_element(shares.begin(), shares.end()));
+}
+
+TEST_F(TcmOrderTest, AsTheFilesStandTheFirstChoiceIsNext) {
+  next(MergeOrder::kFile);
+  EXPECT_EQ(found_.position, 0u);
+  std::reverse(choices_.begin(), choices_.end());
+  next(MergeOrder::kFile);
+  EXPECT_EQ(found_.position, 0u);
+}
+
+TEST_F(TcmOrderTest, AtRandomTheSeedDecidesEachDrawAnew) {
+  options_.merge_order = MergeOrder::kRandom;
+  std::set<std::vector<std::size_t>> drawn;
+  for (context_.seed = 0; context_.seed < 8; ++context_.seed) {
+    const auto draw = [&] {
+      TcmOrder order(s_.scans, options_, context_);
+      std::vector<std::size_t> scans;
+      for (int k = 0; k < 3; ++k) scans.push_back(choices_[order.next(*cloud_, choices_).position].scan);
+      return scans;
+    };
+    drawn.insert(draw());
+    EXPECT_EQ(drawn.count(draw()), 1u) << "the same seed, the same scans";
+  }
+  EXPECT_GT(drawn.size(), 4u) << "of 64, 8 draws hardly give the same ones";
+}
+
+TEST_F(TcmOrderTest, AGrownCloudIsMeasuredAnew) {
+  TcmOrder order(s_.scans, options_, context_);
+  const TcmOrder::Next before = order.next(*cloud_, choices_);
+  MergedCloud merged(s_.resolutions.coarse_m);
+  merged.add(s_.scans[0].pyramid.level(0).cloud, Eigen::Isometry3d::Identity());
+  merged.add(s_.scans[choices_[before.position].scan].pyramid.level(0).cloud,
+             choices_[before.position].T_reference_scan);
+  choices_.erase(choices_.begin() + static_cast<std::ptrdiff_t>(before.position));
+  cloud_.emplace(merged.pyramid());
+  order.grown();
+  const TcmOrder::Next after = order.next(*cloud_, choices_);
+  EXPECT_EQ(after.terms.tau(), robust_terms()[after.position].tau());
+}
+
+TEST_F(TcmOrderTest, ThreadsDoNotChangeABit) {
+  next(MergeOrder::kTcm);
+  const TcmOrder::Next one = found_;
+  context_.num_threads = 2;
+  next(MergeOrder::kTcm);
+  EXPECT_EQ(found_.position, one.position);
+  EXPECT_EQ(found_.terms.tau(), one.terms.tau());
+}
+
+}  // namespace
+}  // namespace tcm_icp
