@@ -1,8 +1,7 @@
 #include "inference/cuts.hpp"
 
 #include <algorithm>
-#include <boost/graph/adjacency_list.hpp>
-#include <boost/graph/boykov_kolmogorov_max_flow.hpp>
+#include <limits>
 #include <set>
 
 namespace tcm_icp {
@@ -24,48 +23,77 @@ std::vector<Edge> supported_pairs(const PairGraph& graph, const Component& compo
   return edges;
 }
 
-// Minimum cuts between scans, by flows (Boykov and Kolmogorov).
+// Maximum flows between scans over the pairs' support, along shortest paths (Edmonds and Karp, 1972).
 class Flows {
-  using Traits = boost::adjacency_list_traits<boost::vecS, boost::vecS, boost::directedS>;
-  using Graph = boost::adjacency_list<
-      boost::vecS, boost::vecS, boost::directedS,
-      boost::property<boost::vertex_color_t, boost::default_color_type,
-                      boost::property<boost::vertex_distance_t, long,
-                                      boost::property<boost::vertex_predecessor_t, Traits::edge_descriptor>>>,
-      boost::property<boost::edge_capacity_t, double,
-                      boost::property<boost::edge_residual_capacity_t, double,
-                                      boost::property<boost::edge_reverse_t, Traits::edge_descriptor>>>>;
-
  public:
-  Flows(const std::vector<Edge>& edges, std::size_t num_scans) : graph_(num_scans) {
-    for (const Edge& e : edges) {
-      const auto there = boost::add_edge(e.a, e.b, graph_).first, back = boost::add_edge(e.b, e.a, graph_).first;
-      for (const auto& [edge, other] : {std::pair(there, back), std::pair(back, there)}) {
-        boost::put(boost::edge_capacity, graph_, edge, e.support);
-        boost::put(boost::edge_reverse, graph_, edge, other);
-      }
+  Flows(const std::vector<Edge>& edges, std::size_t num_scans) : edges_(edges), of_scan_(num_scans) {
+    for (std::size_t k = 0; k < edges.size(); ++k) {
+      of_scan_[edges[k].a].push_back(k);
+      of_scan_[edges[k].b].push_back(k);
     }
   }
 
-  // Whether each scan is on the side of `from`.
-  std::vector<bool> side_of(std::size_t from, std::size_t to) {
-    boost::boykov_kolmogorov_max_flow(graph_, from, to);
-    std::vector<bool> side(boost::num_vertices(graph_));
-    for (std::size_t i = 0; i < side.size(); ++i) {
-      side[i] = boost::get(boost::vertex_color, graph_, i) == boost::black_color;
+  /// Whether each scan is on the side of `from` in a minimum cut between the two.
+  std::vector<bool> side_of(std::size_t from, std::size_t to) const {
+    std::vector<double> flow(edges_.size(), 0);  // from a to b
+    while (true) {
+      const std::vector<std::size_t> way = shortest_ways(flow, from);
+      if (way[to] == kNone) {
+        std::vector<bool> side(of_scan_.size(), false);
+        for (std::size_t i = 0; i < side.size(); ++i) side[i] = i == from || way[i] != kNone;
+        return side;
+      }
+      double least = std::numeric_limits<double>::infinity();
+      for_each_edge_to(to, from, way, [&](std::size_t k, std::size_t i) { least = std::min(least, left(flow, k, i)); });
+      for_each_edge_to(to, from, way,
+                       [&](std::size_t k, std::size_t i) { flow[k] += i == edges_[k].a ? least : -least; });
     }
-    return side;
   }
 
  private:
-  Graph graph_;
+  static constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+  static constexpr double kLeastLeft = 1e-9;  // less is rounding
+
+  // What edge k still takes on from scan i.
+  double left(const std::vector<double>& flow, std::size_t k, std::size_t i) const {
+    return edges_[k].support - (i == edges_[k].a ? flow[k] : -flow[k]);
+  }
+  std::size_t other_end(std::size_t k, std::size_t i) const { return edges_[k].a == i ? edges_[k].b : edges_[k].a; }
+
+  // The edge by which each scan is reached first.
+  std::vector<std::size_t> shortest_ways(const std::vector<double>& flow, std::size_t from) const {
+    std::vector<std::size_t> way(of_scan_.size(), kNone), open{from};
+    for (std::size_t next = 0; next < open.size(); ++next) {
+      const std::size_t i = open[next];
+      for (const std::size_t k : of_scan_[i]) {
+        const std::size_t j = other_end(k, i);
+        if (j == from || way[j] != kNone || left(flow, k, i) <= kLeastLeft) continue;
+        way[j] = k;
+        open.push_back(j);
+      }
+    }
+    return way;
+  }
+
+  // Backwards from `to`: each edge with the scan it is entered from.
+  template <typename Visit>
+  void for_each_edge_to(std::size_t to, std::size_t from, const std::vector<std::size_t>& way, Visit visit) const {
+    for (std::size_t j = to; j != from;) {
+      const std::size_t k = way[j], i = other_end(k, j);
+      visit(k, i);
+      j = i;
+    }
+  }
+
+  const std::vector<Edge>& edges_;
+  std::vector<std::vector<std::size_t>> of_scan_;
 };
 
 // A minimum cut for each edge of a cut tree (Gusfield, 1990): among them is one between any two members. Each as the
 // part without the reference.
 std::vector<std::vector<std::size_t>> minimum_cuts(const std::vector<Edge>& edges, const Component& component) {
   const std::vector<std::size_t> members = component.members();
-  Flows flows(edges, component.T_reference_scan.size());
+  const Flows flows(edges, component.T_reference_scan.size());
   std::vector<std::size_t> parent(component.T_reference_scan.size(), members.front());
   std::vector<std::vector<std::size_t>> cuts;
   for (std::size_t k = 1; k < members.size(); ++k) {
