@@ -155,8 +155,8 @@ TEST_F(RegisterTown, KnowsHowWrongItIs) {
   const Truth truth = read_truth(town_file("truth.json"));
   const PoseFile file = poses();
   const nlohmann::json report = read_json(folder() / "result/report.json");
-  const std::size_t reference = 2;
-  ASSERT_EQ(file.scans[reference].status, ScanStatus::kReference);
+  std::size_t reference = 0;
+  while (file.scans.at(reference).status != ScanStatus::kReference) ++reference;
   double squares = 0;
   for (std::size_t i = 0; i < 6; ++i) {
     const auto& uncertainty = report["scans"][i]["uncertainty"];

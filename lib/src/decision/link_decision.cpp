@@ -3,12 +3,11 @@
 #include <cmath>
 #include <cstdio>
 
+#include "core/acceptance.hpp"
 #include "links/link_likelihood.hpp"
 
 namespace tcm_icp {
 namespace {
-
-constexpr double kAccepted = 0.95, kRejected = 0.5;
 
 std::string percent(double share) {
   char text[16];
@@ -21,7 +20,9 @@ std::string percent(double share) {
 LinkDecision decide_link(const LinkMeasurements& m, const SetReference& set) {
   LinkDecision out;
   out.probability = 1 / (1 + std::exp(-pose_log_odds(link_features(m, std::nullopt, set))));
-  out.verdict = out.probability >= kAccepted ? "accepted" : out.probability < kRejected ? "rejected" : "doubtful";
+  out.verdict = out.probability >= kLinkAccepted  ? "accepted"
+                : out.probability < kLinkRejected ? "rejected"
+                                                  : "doubtful";
   out.text = percent(m.evidence.overlap) + " overlap, " + percent(m.evidence.inlier_share) +
              " of that agrees within the noise; " + percent(m.evidence.left_after_slide[0]) +
              " of the agreement is left when it slides along its weakest direction";

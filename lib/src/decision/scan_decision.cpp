@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <numeric>
 
+#include "core/acceptance.hpp"
 #include "links/feature_scales.hpp"
 #include "tcm_icp/core/error.hpp"
 #include "tcm_icp/core/statistics.hpp"
@@ -32,8 +33,6 @@ struct ScanModel {
 constexpr double kMostLead = 20, kLeastLead = -10, kMostLink = 8;
 constexpr double kLeastSigma = 0.01, kMostSigma = 2;  // in coarse voxels
 constexpr std::size_t kNumReasons = static_cast<std::size_t>(Reason::kTooFewPoints) + 1;
-constexpr double kContradicting = -3;  // log-odds of a link that should be right if the pose is
-constexpr std::size_t kFewAgreeing = 30;
 
 double agreeing(const AlignmentEvidence& e) { return e.consensus() * static_cast<double>(e.num_points); }
 

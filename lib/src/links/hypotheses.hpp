@@ -7,16 +7,13 @@
 #include <utility>
 #include <vector>
 
+#include "core/acceptance.hpp"
 #include "inference/compared_pairs.hpp"
 #include "tcm_icp/coarse/pose_candidate.hpp"
 #include "tcm_icp/core/rigid_transform.hpp"
 #include "tcm_icp/links/link_measurements.hpp"
 
 namespace tcm_icp {
-
-/// Poses whose rms distance over a scan is less, in coarse voxels, are one to the links: a fit leads from either to the
-/// same.
-constexpr double kSameLinkPose = 4;
 
 /// A pose that a pair may have, after a fit.
 struct LinkHypothesis {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/acceptance.hpp"
 #include "links/measure_link.hpp"
 #include "scans/scan_sight.hpp"
 #include "tcm_icp/core/even_sample.hpp"
@@ -16,11 +17,6 @@ constexpr std::size_t kFitPoints = 500, kScreenPoints = 250;
 constexpr int kMaxLpSolves = 20;  // a fit of a right pose takes ten; others go round in circles
 // Maximum correspondence distances, in coarse voxels.
 constexpr double kFirstDistance = 8, kLastDistance = 2, kDistanceShrink = 0.6;
-
-// Free space tells before a fit: right poses of real scenes, off by up to four coarse voxels, came to 0.04 of
-// violations and less, those whose fits were wrong to 0.08 and more. A slide is right but for two voxels or so, or
-// wrong.
-constexpr double kHopelessViolations = 0.12, kHopelessOfSlide = 0.04;
 
 bool hopeless(const PreparedScan& target, const PreparedScan& source, const PoseCandidate& candidate) {
   const FreeSpaceEvidence evidence = free_space(target, source, candidate.T_target_source);

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <optional>
 
+#include "core/acceptance.hpp"
 #include "links/link_fit.hpp"
 #include "tcm_icp/coarse/feature_alignment.hpp"
 #include "tcm_icp/coarse/height_correlation.hpp"
@@ -25,8 +26,6 @@ constexpr std::size_t kFirstPartners = 6;
 constexpr std::size_t kSlidesOfPose = 8;  // from one pose
 // Of a pair and method, beside those that free space vetoes; a clear hypothesis ends them.
 constexpr int kMaxFits = 3;
-constexpr double kClearLogOdds = 5;
-constexpr double kGuessedOverlap = 0.2;  // within eight voxels, of pairs that are fitted from their initial poses
 
 // Each of the two may be off the vertical.
 bool tilts(const Eigen::Isometry3d& T) { return T.linear()(2, 2) < std::cos(2 * kMaxLevelTilt_deg * EIGEN_PI / 180); }

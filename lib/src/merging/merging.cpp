@@ -60,7 +60,6 @@ std::vector<MergeRecord> merge_in_tcm_order(const std::vector<PreparedScan>& sca
     s.add(scans[q].pyramid.level(0).cloud, *component.T_reference_scan[q]);
     order.grown();
     merged[q] = true;
-    context.debug("scan " + std::to_string(q) + " merged: " + record.reason);
     records.push_back(std::move(record));
   }
   return records;

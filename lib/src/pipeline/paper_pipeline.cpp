@@ -97,6 +97,7 @@ void run_paper_pipeline(const PipelineInput& in, PipelineResult& result) {
       order.grown();
       merged[q.scan] = true;
     }
+    in.context.debug(in.files[q.scan] + (record.accepted ? " merged: " : " set aside: ") + record.reason);
     result.merges.push_back(std::move(record));
     left.erase(left.begin() + static_cast<std::ptrdiff_t>(next.position));
   }

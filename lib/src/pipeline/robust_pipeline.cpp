@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "core/acceptance.hpp"
 #include "inference/configuration.hpp"
 #include "inference/cuts.hpp"
 #include "links/pair_search.hpp"
@@ -18,9 +19,6 @@
 
 namespace tcm_icp {
 namespace {
-
-// Scans whose place has a lead below are looked at by more searches, as long as there are any.
-constexpr double kLeadToRest = 6;
 
 class RobustPipeline {
  public:
@@ -103,11 +101,16 @@ class RobustPipeline {
         }
         in_.clock.begin("merge");
         const auto records = merge_in_tcm_order(scans_, graph, in_.options.merging(), in_.context, component);
+        for (const MergeRecord& r : records) in_.context.debug(in_.files[r.scan] + " merged: " + r.reason);
         result_.merges.insert(result_.merges.end(), records.begin(), records.end());
         in_.clock.begin("adjust and verify");
         settled_.push_back(
             settle(scans_, *hypotheses_, graph, resolutions_, in_.options, in_.context, std::move(component)));
         for (std::size_t i = 0; i < size(); ++i) {
+          const Decision& decision = settled_.back().decisions[i];
+          if (settled_.back().measurements[i] && !decision.accepted()) {
+            in_.context.debug(in_.files[i] + " set aside: " + decision.text);
+          }
           if (!settled_.back().measurements[i] || result_.measurements[i]) continue;
           result_.measurements[i] = settled_.back().measurements[i];
           result_.decisions[i] = settled_.back().decisions[i];

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "core/acceptance.hpp"
 #include "scans/prepared_scan.hpp"
 #include "scans/scan_sampling.hpp"
 #include "tcm_icp/core/run_context.hpp"
@@ -12,9 +13,6 @@
 #include "tcm_icp/pipeline/pipeline.hpp"
 
 namespace tcm_icp {
-
-/// Least share of a scan's points near another for the pair to be a link of the robust graph.
-constexpr double kMinLinkOverlap = 0.1;
 
 /// The scan named by --reference: by its path or its file name. @throws InvalidOptions  if there is none
 std::size_t find_scan(const std::vector<std::filesystem::path>& paths, const std::string& name);

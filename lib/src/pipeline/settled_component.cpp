@@ -195,7 +195,6 @@ class Settling {
       if (!worst || out_.decisions[i].probability < out_.decisions[*worst].probability) worst = i;
     }
     if (!worst) return {};
-    context_.debug("scan " + std::to_string(*worst) + " leaves: " + out_.decisions[*worst].text);
     const Cut* cut = weakest_cut_of(*worst);
     if (out_.decisions[*worst].reason != Reason::kAmbiguous || cut == nullptr) return {*worst};
     // As a whole: of two parts that may lie elsewhere to one another, the larger stays.

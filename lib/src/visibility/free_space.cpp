@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/acceptance.hpp"
+
 namespace tcm_icp {
 namespace {
-
-// On real and simulated scenes right poses stay below, wrong ones of interiors lie above (decision 0017).
-constexpr double kMaxViolationShare = 0.0175, kVetoedOpposedShare = 0.3;
-constexpr std::size_t kMinCount = 100;  // at fewer, a share of three in a hundred is chance
 
 constexpr std::size_t kPoints = 3000;
 // Clearly before a surface: a coarse voxel, and what the viewpoint and a bin's width leave open.
@@ -97,11 +95,12 @@ void compare_sides(const SightedScan& a, const SightedScan& b, const std::vector
 
 }  // namespace
 
-bool FreeSpaceEvidence::tells() const { return num_points >= kMinCount; }
+bool FreeSpaceEvidence::tells() const { return num_points >= kMinFreeSpacePoints; }
 
 double FreeSpaceEvidence::excess() const {
   const double violating = tells() ? beyond_chance(num_violating, num_points, kMaxViolationShare) : 0;
-  const double opposed = num_matches < kMinCount ? 0 : beyond_chance(num_opposed, num_matches, kVetoedOpposedShare);
+  const double opposed =
+      num_matches < kMinFreeSpacePoints ? 0 : beyond_chance(num_opposed, num_matches, kVetoedOpposedShare);
   return std::max(violating, opposed);
 }
 

@@ -27,9 +27,9 @@ struct Inspection {
   std::optional<ScanComparison> comparison;  ///< of two or more scans
 };
 
-/// Reads, samples and compares the scans as Pipeline::run() does before its first placement, where every scan has an
-/// initial pose and in the paper profile: the same measures and the same reference come out. No links are searched. Raw
-/// points stream by once; memory follows the working clouds. Cost: tau of n^2 / 2 pairs.
+/// Reads, samples and compares the scans where they lie, or at their initial poses, as Pipeline::run() does in the
+/// paper profile: there the same measures and the same reference come out. No links are searched. Raw points stream by
+/// once; memory follows the working clouds. Cost: tau of n^2 / 2 pairs.
 /// @param initial_poses  one a scan; where none is given the scan is taken as it lies
 /// @throws InputError, InvalidInput  as Pipeline::run(), but one scan is enough
 /// @throws InvalidOptions            an option out of its bounds, no scan
