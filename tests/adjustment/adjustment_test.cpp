@@ -72,7 +72,7 @@ TEST(AdjustPoses, PerturbedTruthComesBack) {
   // Exact points; voxels that straddle an edge, and round tubes, leave a hundredth of the voxel at Huber's weight.
   const double tolerance = 0.02 * s.resolutions.fine_m;
   ASSERT_GT(worst_error_m(s, poses), 10 * tolerance);
-  const double moved_m = adjust_poses(s.scans, all_pairs(4), 0, s.resolutions, {}, {}, poses).rms_move_m;
+  const double moved_m = adjust_poses(s.scans, all_pairs(4), 0, s.resolutions, {}, {}, {}, poses).rms_move_m;
   EXPECT_LE(worst_error_m(s, poses), tolerance);
   EXPECT_LE(moved_m, tolerance) << "it has settled";
   EXPECT_TRUE(poses[0].isApprox(start[0], 0)) << "the reference is fixed";
@@ -82,9 +82,9 @@ TEST(AdjustPoses, PerturbedTruthComesBack) {
 TEST(AdjustPoses, SaysWhatItsProgramsDid) {
   const PreparedScene s = scene({.num_scans = 4, .points_per_scan = 5000, .range_m = 12}, 2);
   auto poses = disturbed(s, 0.02, 0.1, 2);
-  PipelineOptions options;
-  options.placement.adjustment_steps = 0;
-  const AdjustmentRecord record = adjust_poses(s.scans, all_pairs(4), 0, s.resolutions, options, {}, poses);
+  AdjustmentOptions options;
+  options.steps = 0;
+  const AdjustmentRecord record = adjust_poses(s.scans, all_pairs(4), 0, s.resolutions, options, {}, {}, poses);
   EXPECT_EQ(record.lp_status, LpStatus::kOptimal);
   EXPECT_EQ(record.lp.num_programs, 2);
   EXPECT_GT(record.lp.num_pivots, 0);
@@ -100,7 +100,7 @@ TEST(AdjustPoses, AScanWithoutLinksStays) {
   const PreparedScene s = scene({.num_scans = 3, .points_per_scan = 3000}, 3);
   auto poses = disturbed(s, 0.02, 0.1, 3);
   const auto start = poses;
-  adjust_poses(s.scans, {{0, 1}}, 0, s.resolutions, {}, {}, poses);
+  adjust_poses(s.scans, {{0, 1}}, 0, s.resolutions, {}, {}, {}, poses);
   EXPECT_FALSE(poses[1].isApprox(start[1], 1e-6));
   EXPECT_TRUE(poses[2].isApprox(start[2], 0));
 }
@@ -108,12 +108,12 @@ TEST(AdjustPoses, AScanWithoutLinksStays) {
 TEST(AdjustPoses, NothingHappensWithoutStepsOrLinks) {
   const PreparedScene s = scene({.num_scans = 2, .points_per_scan = 2000}, 4);
   const auto start = disturbed(s, 0.02, 0.1, 4);
-  PipelineOptions none;
-  none.placement.adjustment_steps = none.placement.adjustment_lp_steps = 0;
+  AdjustmentOptions none;
+  none.steps = none.lp_steps = 0;
   auto poses = start;
-  EXPECT_EQ(adjust_poses(s.scans, all_pairs(2), 0, s.resolutions, none, {}, poses).rms_move_m, 0);
+  EXPECT_EQ(adjust_poses(s.scans, all_pairs(2), 0, s.resolutions, none, {}, {}, poses).rms_move_m, 0);
   EXPECT_TRUE(poses[1].isApprox(start[1], 0));
-  EXPECT_EQ(adjust_poses(s.scans, {}, 0, s.resolutions, {}, {}, poses).rms_move_m, 0);
+  EXPECT_EQ(adjust_poses(s.scans, {}, 0, s.resolutions, {}, {}, {}, poses).rms_move_m, 0);
   EXPECT_TRUE(poses[1].isApprox(start[1], 0));
 }
 
@@ -123,7 +123,7 @@ TEST(AdjustPoses, ThreadsDoNotChangeABit) {
     auto poses = disturbed(s, 0.02, 0.1, 5);
     RunContext context;
     context.num_threads = num_threads;
-    adjust_poses(s.scans, all_pairs(4), 0, s.resolutions, {}, context, poses);
+    adjust_poses(s.scans, all_pairs(4), 0, s.resolutions, {}, {}, context, poses);
     return poses;
   };
   const auto one = run(1), two = run(2);
@@ -135,7 +135,7 @@ TEST(AdjustPoses, StopsWhenAsked) {
   auto poses = disturbed(s, 0.02, 0.1, 6);
   RunContext context;
   context.on_progress = [](const Progress&) { return Continue::kStop; };
-  EXPECT_THROW(adjust_poses(s.scans, all_pairs(2), 0, s.resolutions, {}, context, poses), Cancelled);
+  EXPECT_THROW(adjust_poses(s.scans, all_pairs(2), 0, s.resolutions, {}, {}, context, poses), Cancelled);
 }
 
 }  // namespace

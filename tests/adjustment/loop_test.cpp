@@ -47,7 +47,7 @@ TEST(AdjustPoses, CloseALoopBetterThanMergingAlone) {
     const ScanPairs overlapping = overlapping_pairs(s.scans, T, std::vector<bool>(6, true), 0.1, 1);
     ASSERT_TRUE(std::find(overlapping.begin(), overlapping.end(), std::pair<std::size_t, std::size_t>(0, 5)) !=
                 overlapping.end());
-    adjust_poses(s.scans, overlapping, 0, s.resolutions, {}, {}, T);
+    adjust_poses(s.scans, overlapping, 0, s.resolutions, {}, {}, {}, T);
     adjusted_m += worst_error_m(T);
   }
   EXPECT_LT(adjusted_m, 0.7 * merged_m);

@@ -22,7 +22,7 @@ Measured measured(double noise_m, const ScanPairs& pairs) {
       testing::prepared_scene({.num_scans = 3, .points_per_scan = 4000, .range_m = 16, .noise_m = noise_m}, rng);
   std::vector<Eigen::Isometry3d> T;
   for (std::size_t i = 0; i < 3; ++i) T.push_back(s.scene.T_target_source(0, i));
-  adjust_poses(s.scans, pairs, 0, s.resolutions, {}, {}, T);
+  adjust_poses(s.scans, pairs, 0, s.resolutions, {}, {}, {}, T);
   Measured out;
   out.links.resize(pairs.size());
   measure_uncertainty(s.scans, pairs, 0, s.resolutions, T, 1, out.uncertainty, out.links);

@@ -138,8 +138,8 @@ TEST(Decide, ATieIsAmbiguousAndSaysHowFarTheOtherPlaceIs) {
 }
 
 TEST(Decide, EveryRefusalHasAReasonOfTheScan) {
-  const std::set<Reason> of_a_scan{Reason::kAmbiguous, Reason::kMisfit, Reason::kSlides, Reason::kSeenThrough,
-                                   Reason::kTooFewPoints};
+  const std::set<Reason> of_a_scan{Reason::kAmbiguous,    Reason::kMisfit,  Reason::kSlides, Reason::kSeenThrough,
+                                   Reason::kTooFewPoints, Reason::kInexact, Reason::kNoLink};
   const ScanMeasurements bad = terrible();
   for (int k = 0; k < 64; ++k) {
     ScanMeasurements m = good();

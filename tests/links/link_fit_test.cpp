@@ -42,7 +42,7 @@ class LinkFitTest : public ::testing::Test {
 
   Rng rng_ = make_stream(1, "link_fit_test");
   const PreparedScene s_ = testing::prepared_scene({.points_per_scan = 6000, .range_m = 16, .noise_m = 0.02}, rng_);
-  const PipelineOptions options_;
+  const LinkSearchOptions options_;
 };
 
 TEST_F(LinkFitTest, AFitLeadsFromNearTheTruthToIt) {

@@ -18,7 +18,7 @@ using testing::PreparedScene;
 using Pair = std::pair<std::size_t, std::size_t>;
 
 // What a search refers to while it lives.
-const PipelineOptions kOptions;
+const LinkSearchOptions kOptions;
 const RunContext kContext;
 
 constexpr std::size_t kPoints = 15000;
@@ -146,7 +146,7 @@ TEST(PairSearch, LevelledScansAreTriedUprightOnly) {
     out.scene = scene;
     return out;
   }();
-  PipelineOptions level;
+  LinkSearchOptions level;
   level.level = true;
   PairSearch search(upright.scans, level, kContext);
   HypothesisSet set = no_hypotheses(upright);
@@ -159,9 +159,9 @@ TEST(PairSearch, LevelledScansAreTriedUprightOnly) {
   }
 }
 
-// Two places of eight scans each: a scan's own place comes before the other.
+// Two places of seven scans each: a scan's own place comes before the other.
 TEST(PairSearch, ManyScansAreTriedWithTheirLikeliestPartnersFirst) {
-  constexpr std::size_t kEach = 8, kAll = 2 * kEach;
+  constexpr std::size_t kEach = 7, kAll = 2 * kEach;
   Rng rng = make_stream(6, "pair_search_test");
   PreparedScene s = testing::prepared_scene({.num_scans = kEach, .points_per_scan = 2000}, rng);
   const PreparedScene other = testing::prepared_scene(

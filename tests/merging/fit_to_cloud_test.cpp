@@ -21,7 +21,7 @@ struct Fit {
 
 // Scan 1 of the scene to scan 0.
 Fit fit(const PreparedScene& s, double angle_rad, double shift_m, std::uint64_t seed,
-        const PipelineOptions& options = {}) {
+        const MergeOptions& options = {}) {
   MergedCloud merged(s.resolutions.coarse_m);
   merged.add(s.scans[0].pyramid.level(0).cloud, Isometry3d::Identity());
   Rng rng = make_stream(seed, "fit_to_cloud_test");
@@ -30,7 +30,7 @@ Fit fit(const PreparedScene& s, double angle_rad, double shift_m, std::uint64_t 
   Fit out;
   out.start = testing::perturbed(truth, points, angle_rad, shift_m, rng);
   const ScanPyramid target = merged.pyramid();
-  const auto method = options.profile == Profile::kPaper ? place_scan_as_printed : fit_to_cloud;
+  const auto method = options.paper_tcm ? place_scan_as_printed : fit_to_cloud;
   out.found = method(s.scans[1], target, out.start, options, rng, out.record);
   out.start_error_m = testing::pose_rmse_m(truth, out.start, points);
   out.error_m = testing::pose_rmse_m(truth, out.found, points);
@@ -42,8 +42,8 @@ PreparedScene scene(const testing::SyntheticSceneOptions& options, std::uint64_t
   return testing::prepared_scene(options, rng);
 }
 
-PipelineOptions with(Refinement method) {
-  PipelineOptions options;
+MergeOptions with(Refinement method) {
+  MergeOptions options;
   options.refinement.method = method;
   return options;
 }
@@ -99,8 +99,8 @@ TEST(FitToCloud, WhatMeetsNothingStaysWhereItIs) {
 
 TEST(PlaceScanAsPrinted, TakesEveryUsableSimplexAndRefinesBothWays) {
   const PreparedScene s = scene({.points_per_scan = 3000, .noise_m = 0.02}, 5);
-  PipelineOptions options = with(Refinement::kDescentThenAnnealing);
-  options.profile = Profile::kPaper;
+  MergeOptions options = with(Refinement::kDescentThenAnnealing);
+  options.paper_tcm = true;
   const Fit f = fit(s, 0.03, 0.3, 7, options);
   EXPECT_TRUE(f.record.simplex.usable());
   EXPECT_TRUE(f.record.accepted);

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "pipeline/prepared_scan.hpp"
+#include "scans/prepared_scan.hpp"
 #include "support/matchers.hpp"
 #include "support/synthetic_scene.hpp"
 #include "tcm_icp/core/rigid_transform.hpp"

@@ -39,8 +39,7 @@ class MergingTest : public ::testing::Test {
   std::vector<MergeRecord> merge() {
     std::vector<PointMoments> moments;
     for (const auto& scan : s_.scans) moments.push_back(scan.moments);
-    return merge_in_tcm_order(s_.scans, PairGraph(pairs_, moments, same_m_, options_.inference), options_, context_,
-                              component_);
+    return merge_in_tcm_order(s_.scans, PairGraph(pairs_, moments, same_m_, {}), options_, context_, component_);
   }
   static Scans order(const std::vector<MergeRecord>& records) {
     Scans scans;
@@ -55,7 +54,7 @@ class MergingTest : public ::testing::Test {
   Rng rng_ = make_stream(1, "merging_test");
   const testing::PreparedScene s_ =
       testing::prepared_scene({.num_scans = 5, .points_per_scan = 4000, .range_m = 16, .noise_m = 0.02}, rng_);
-  PipelineOptions options_;
+  MergeOptions options_;
   RunContext context_;
   Component component_;
   std::vector<ComparedPair> pairs_;
@@ -146,7 +145,7 @@ TEST_F(MergingTest, ScansThatNothingJoinsComeLast) {
 
 TEST_F(MergingTest, TheOrderAskedForIsKept) {
   for (std::size_t i = 1; i < 5; ++i) join(0, i);
-  options_.merge_order = MergeOrder::kFile;
+  options_.order = MergeOrder::kFile;
   EXPECT_EQ(order(merge()), (Scans{1, 2, 3, 4}));
 }
 

@@ -8,6 +8,7 @@
 #include "merging/merged_cloud.hpp"
 #include "pipeline/prepared_scene.hpp"
 #include "tcm_icp/graph/correspondence_measure.hpp"
+#include "tcm_icp/pipeline/pipeline_options.hpp"
 
 namespace tcm_icp {
 namespace {
@@ -22,8 +23,8 @@ class TcmOrderTest : public ::testing::Test {
     for (const std::size_t i : {3u, 1u, 4u, 2u}) choices_.push_back({i, s_.scene.T_target_source(0, i)});
   }
   std::size_t next(MergeOrder wanted, Profile profile = Profile::kRobust) {
-    options_.merge_order = wanted;
-    options_.profile = profile;
+    options_.order = wanted;
+    options_.paper_tcm = profile == Profile::kPaper;
     found_ = TcmOrder(s_.scans, options_, context_).next(*cloud_, choices_);
     return choices_[found_.position].scan;
   }
@@ -55,7 +56,7 @@ class TcmOrderTest : public ::testing::Test {
       testing::prepared_scene({.num_scans = 5, .points_per_scan = 3000, .range_m = 9, .noise_m = 0.02}, rng_);
   std::optional<ScanPyramid> cloud_;
   std::vector<MergeChoice> choices_;
-  PipelineOptions options_;
+  MergeOptions options_;
   RunContext context_;
   TcmOrder::Next found_;
 };
@@ -112,7 +113,7 @@ TEST_F(TcmOrderTest, AsTheFilesStandTheFirstChoiceIsNext) {
 }
 
 TEST_F(TcmOrderTest, AtRandomTheSeedDecidesEachDrawAnew) {
-  options_.merge_order = MergeOrder::kRandom;
+  options_.order = MergeOrder::kRandom;
   std::set<std::vector<std::size_t>> drawn;
   for (context_.seed = 0; context_.seed < 8; ++context_.seed) {
     const auto draw = [&] {

@@ -34,11 +34,11 @@ const std::vector<BadValue>& bad_values() {
       {"max_samples", [](O& o) { o.tcm.max_samples = 0; }},
       {"tie_breaking", [](O& o) { o.lp.tie_breaking = -1; }},
       {"rank_tolerance", [](O& o) { o.lp.rank_tolerance = 0; }},
-      {"coarse_points", [](O& o) { o.placement.coarse_points = 99; }},
-      {"fine_points", [](O& o) { o.placement.fine_points = 99; }},
-      {"held_out_points", [](O& o) { o.placement.held_out_points = 99; }},
-      {"adjustment_lp_steps", [](O& o) { o.placement.adjustment_lp_steps = -1; }},
-      {"adjustment_steps", [](O& o) { o.placement.adjustment_steps = -1; }},
+      {"coarse_points", [](O& o) { o.samples.coarse_points = 99; }},
+      {"fine_points", [](O& o) { o.samples.fine_points = 99; }},
+      {"held_out_points", [](O& o) { o.samples.held_out_points = 99; }},
+      {"lp_steps", [](O& o) { o.adjustment.lp_steps = -1; }},
+      {"adjustment steps", [](O& o) { o.adjustment.steps = -1; }},
       {"points", [](O& o) { o.refinement.points = 19; }},
       {"descent_steps", [](O& o) { o.refinement.descent_steps = 0; }},
       {"annealing_steps", [](O& o) { o.refinement.annealing_steps = -1; }},
@@ -80,7 +80,7 @@ TEST(PipelineOptions, TheBoundsThemselvesAreValid) {
   PipelineOptions options;
   options.sampling.coarse_voxels = options.sampling.fine_voxels = 100;
   options.sampling.max_surface_variation = 1.0 / 3;
-  options.placement.adjustment_lp_steps = options.placement.adjustment_steps = 0;
+  options.adjustment.lp_steps = options.adjustment.steps = 0;
   options.refinement.annealing_steps = 0;
   options.decision.confidence = 0;
   options.refinement.final_temperature = options.refinement.initial_temperature;
@@ -89,7 +89,7 @@ TEST(PipelineOptions, TheBoundsThemselvesAreValid) {
 
 TEST(Pipeline, ChecksItsOptionsWhenItIsMade) {
   PipelineOptions options;
-  options.placement.fine_points = 0;
+  options.samples.fine_points = 0;
   EXPECT_THROW(Pipeline pipeline(options), InvalidOptions);
 }
 

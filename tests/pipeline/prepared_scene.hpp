@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/prepared_scan.hpp"
+#include "scans/prepared_scan.hpp"
 #include "support/synthetic_scene.hpp"
 
 namespace tcm_icp::testing {

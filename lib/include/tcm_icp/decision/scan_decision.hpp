@@ -61,8 +61,8 @@ enum class Reason {
 std::string_view to_string(Reason reason);
 
 struct DecisionOptions {
-  double confidence = 0.999;  ///< 0..1; least probability of a scan that counts as registered
-  void validate() const;      ///< throws InvalidOptions
+  double confidence = 0.7;  ///< 0..1; least probability of a scan that counts as registered
+  void validate() const;    ///< throws InvalidOptions
 };
 
 struct Decision {

@@ -1,4 +1,4 @@
-#include "pipeline/prepared_scan.hpp"
+#include "scans/prepared_scan.hpp"
 
 #include <gtest/gtest.h>
 
@@ -26,13 +26,13 @@ Cloud yard(std::uint64_t seed, std::size_t num_points = 6000) {
   return testing::synthetic_scene({.num_scans = 1, .points_per_scan = num_points}, rng).scans[0];
 }
 
-PreparedScan prepare(const Cloud& cloud, const PlacementOptions& options, std::uint64_t seed = 42) {
+PreparedScan prepare(const Cloud& cloud, const SampleSizes& options, std::uint64_t seed = 42) {
   const SampledScan scan = sampled(cloud, "a.ply");
   return prepare_scan(scan, choose_resolutions({scan}, {}, 1), options, seed);
 }
 
 TEST(PrepareScan, HeldOutPointsAreInNoFit) {
-  PlacementOptions options;
+  SampleSizes options;
   options.fine_points = 900;
   options.held_out_points = 300;
   const PreparedScan scan = prepare(yard(1), options);

@@ -1,4 +1,4 @@
-#include "pipeline/scan_sampling.hpp"
+#include "scans/scan_sampling.hpp"
 
 #include <gtest/gtest.h>
 
@@ -23,9 +23,9 @@ Points yard(std::uint64_t seed, std::size_t count, double noise_m = 0) {
   return testing::synthetic_scene({.num_scans = 1, .points_per_scan = count, .noise_m = noise_m}, rng).scans[0].points;
 }
 
-PipelineOptions keep_all() {
-  PipelineOptions options;
-  options.outliers.method = OutlierMethod::kNone;
+OutlierOptions keep_all() {
+  OutlierOptions options;
+  options.method = OutlierMethod::kNone;
   return options;
 }
 
@@ -36,7 +36,7 @@ TEST(SampleScan, CountsPointsAndTakesTheFirstAsLocalOrigin) {
   for (auto& p : points) p += utm;
   points[10].x() = std::numeric_limits<double>::quiet_NaN();
   points[20].z() = std::numeric_limits<double>::infinity();
-  const SampledScan s = sample_scan(write_ply(folder.path() / "a.ply", points), keep_all(), 42, 1);
+  const SampledScan s = sample_scan(write_ply(folder.path() / "a.ply", points), {}, keep_all(), 42, 1);
   EXPECT_EQ(s.scan.file, "a.ply");
   EXPECT_EQ(s.scan.num_raw_points, 1998u);
   EXPECT_EQ(s.scan.num_dropped_points, 2u);
@@ -54,9 +54,9 @@ TEST(SampleScan, CountsPointsAndTakesTheFirstAsLocalOrigin) {
 
 TEST(SampleScan, WorkingCloudIsBounded) {
   const test::TempFolder folder;
-  PipelineOptions options = keep_all();
-  options.sampling.max_working_points = 1000;
-  const SampledScan s = sample_scan(write_ply(folder.path() / "a.ply", yard(2, 8000)), options, 42, 1);
+  SamplingOptions sampling;
+  sampling.max_working_points = 1000;
+  const SampledScan s = sample_scan(write_ply(folder.path() / "a.ply", yard(2, 8000)), sampling, keep_all(), 42, 1);
   EXPECT_LE(s.scan.cloud.size(), 1000u);
   EXPECT_GT(s.scan.cloud.size(), 100u);
   EXPECT_EQ(s.scan.num_raw_points, 8000u);
@@ -65,7 +65,7 @@ TEST(SampleScan, WorkingCloudIsBounded) {
 TEST(SampleScan, NoiseAndExtentAreMeasured) {
   const test::TempFolder folder;
   const auto noise_of = [&](double noise_m) {
-    return sample_scan(write_ply(folder.path() / "a.ply", yard(3, 6000, noise_m)), keep_all(), 42, 1).scan;
+    return sample_scan(write_ply(folder.path() / "a.ply", yard(3, 6000, noise_m)), {}, keep_all(), 42, 1).scan;
   };
   const Scan quiet = noise_of(0), noisy = noise_of(0.05);
   EXPECT_LT(quiet.noise_m, 0.005);
@@ -85,7 +85,7 @@ TEST(SampleScan, NormalsAreThoseOfSurfacesNotOfLinesOnThem) {
   for (int line = 0; line < 20; ++line) {
     for (int k = 0; k < 400; ++k) points.push_back(T * Vector3d(0.02 * k, 0.4 * line, 0.01 * standard_normal(rng)));
   }
-  const SampledScan s = sample_scan(write_ply(folder.path() / "a.ply", points), keep_all(), 42, 1);
+  const SampledScan s = sample_scan(write_ply(folder.path() / "a.ply", points), {}, keep_all(), 42, 1);
   EXPECT_GT(s.scan.coverage_m, 5 * s.scan.spacing_m);
   EXPECT_LT(s.scan.coverage_m, 0.8);
   std::size_t right = 0;
@@ -100,7 +100,7 @@ TEST(SampleScan, RoughPlacesAreNoSurfaces) {
   const std::size_t num_yard = points.size();
   for (int i = 0; i < 1000; ++i)
     points.push_back(Vector3d(40, 0, 0) + testing::random_pose(2, rng).translation());  // a bush
-  const SampledScan s = sample_scan(write_ply(folder.path() / "a.ply", points), keep_all(), 42, 1);
+  const SampledScan s = sample_scan(write_ply(folder.path() / "a.ply", points), {}, keep_all(), 42, 1);
   std::size_t bush = 0, rough_bush = 0, walls = 0, rough_walls = 0;
   for (std::size_t i = 0; i < s.scan.cloud.size(); ++i) {
     const bool in_bush = (s.scan.cloud.points[i] + s.scan.origin - Vector3d(40, 0, 0)).norm() < 4;
@@ -118,18 +118,18 @@ TEST(SampleScan, RefusesScansThatCannotBeRegisteredAndSaysWhy) {
   const test::TempFolder folder;
   const auto message = [&](const Points& points) {
     const auto path = write_ply(folder.path() / "bad.ply", points);
-    return test::error_of<InvalidInput>([&] { sample_scan(path, keep_all(), 42, 1); });
+    return test::error_of<InvalidInput>([&] { sample_scan(path, {}, keep_all(), 42, 1); });
   };
   EXPECT_NE(message({{0, 0, 0}, {1, 0, 0}}).find("2 finite points"), std::string::npos);
   EXPECT_NE(message(Points(100, Vector3d(1, 2, 3))).find("1 place"), std::string::npos);
   EXPECT_NE(message({{0, 0, 0}, {1, 0, 0}}).find("bad.ply"), std::string::npos);
-  EXPECT_THROW(sample_scan(folder.path() / "missing.ply", keep_all(), 42, 1), InputError);
+  EXPECT_THROW(sample_scan(folder.path() / "missing.ply", {}, keep_all(), 42, 1), InputError);
 }
 
 TEST(SampleScan, ThreadsAndRepeatsDoNotMatter) {
   const test::TempFolder folder;
   const auto path = write_ply(folder.path() / "a.ply", yard(5, 4000, 0.02));
-  const SampledScan one = sample_scan(path, {}, 42, 1), two = sample_scan(path, {}, 42, 2);
+  const SampledScan one = sample_scan(path, {}, {}, 42, 1), two = sample_scan(path, {}, {}, 42, 2);
   EXPECT_EQ(one.scan.cloud.points, two.scan.cloud.points);
   EXPECT_EQ(one.scan.cloud.normals, two.scan.cloud.normals);
   EXPECT_EQ(one.scan.noise_m, two.scan.noise_m);
