@@ -159,9 +159,9 @@ TEST(PairSearch, LevelledScansAreTriedUprightOnly) {
   }
 }
 
-// Two places of seven scans each: a scan's own place comes before the other.
+// Two places of six scans each: a scan's own place comes before the other.
 TEST(PairSearch, ManyScansAreTriedWithTheirLikeliestPartnersFirst) {
-  constexpr std::size_t kEach = 7, kAll = 2 * kEach;
+  constexpr std::size_t kEach = 6, kAll = 2 * kEach;
   Rng rng = make_stream(6, "pair_search_test");
   PreparedScene s = testing::prepared_scene({.num_scans = kEach, .points_per_scan = 2000}, rng);
   const PreparedScene other = testing::prepared_scene(
