@@ -94,15 +94,21 @@ def head(options, count):
 
 def fit_links(options, folder, results):
     X, y, scene, _ = labels.load(folder, results, "links")
-    pose = len(names_of("links/link_measurements.hpp", "kLinkFeatureNames")) - 5
+    names = names_of("links/link_measurements.hpp", "kLinkFeatureNames")
+    blind, pose = names.index("blind"), names.index("blind") + 1
+    searched = range(pose + 1, X.shape[1])  # the search knows nothing of viewpoints
     models, tables = [], []
     for name, part in (("hypothesis", X), ("pose", X[:, :pose])):
-        constant, weights = logistic.fit(part, y)
-        models.append((constant, np.concatenate([weights, np.zeros(X.shape[1] - part.shape[1])])))
-        tables.append(figures(name, logistic.held_out(part, y, scene), y))
+        def model():
+            return logistic.Split(blind, searched, RIDGE)
+
+        models.append(model().fit(part, y))
+        tables.append(figures(name, logistic.held_out(model, part, y, scene), y))
     text = head(options, f"{len(y)} hypotheses ({int(y.sum())} right)")
-    for name, (constant, weights) in zip(("kHypothesisModel", "kPoseModel"), models):
-        text += f"constexpr LinkModel {name}{{{constant:.5g},\n    {braces(weights)}}};\n"
+    for name, model in zip(("kHypothesisModel", "kPoseModel"), models):
+        halves = [f"{{{c:.5g},\n     {braces(np.pad(w, (0, X.shape[1] - len(w))))}}}"
+                  for c, w in zip(model.constants, model.weights)]
+        text += f"constexpr LinkModel {name}{{\n    {halves[0]},\n    {halves[1]}}};\n"
     (ROOT / "lib/src/links/link_model.inc").write_text(text)
     return tables
 
@@ -114,16 +120,13 @@ def fit_scans(options, folder, results):
     def model():
         return softmin.TwoWays(PLACE, quality, SIGNS, RIDGE)
 
-    held_out = np.zeros(len(y))
-    for s in np.unique(scene):
-        held_out[scene == s] = model().fit(X[scene != s], y[scene != s]).log_odds(X[scene == s])
     whole = model().fit(X, y)
     text = head(options, f"{len(y)} decisions ({int(y.sum())} right)") + (
         f"const ScanModel kScanModel{{{whole.constants[0]:.5g}, {whole.constants[1]:.5g},\n"
         f"    {braces(whole.spread(0, X.shape[1]))},\n    {braces(whole.spread(1, X.shape[1]))},\n"
         f"    {braces(np.median(X[y > 0], 0))}}};\n")
     (ROOT / "lib/src/decision/scan_model.inc").write_text(text)
-    return [figures("scan", held_out, y)]
+    return [figures("scan", logistic.held_out(model, X, y, scene), y)]
 
 
 def draw(tables):

@@ -33,13 +33,40 @@ def _newton(X, y, ridge, steps=60):
     return b[0] - weights @ mean, weights, b[1:]
 
 
-def held_out(X, y, group, ridge=1.0, signs=None):
-    """Log-odds of each row by a model fitted to the rows of all other groups."""
+class Split:
+    """Two logistic models of the same features, one for rows where column `by` is 0, one for the others. They share what
+    does not differ: the ridge is on the difference, too."""
+
+    def __init__(self, by, alike, ridge=1.0):
+        """`alike`: columns whose weight both have in common."""
+        self.by, self.alike, self.ridge = by, alike, ridge
+
+    def _columns(self, X):
+        apart = [k for k in range(X.shape[1]) if k != self.by and k not in self.alike]
+        return np.c_[X, X[:, apart] * X[:, [self.by]]], apart
+
+    def fit(self, X, y):
+        Z, apart = self._columns(X)
+        constant, weights = fit(Z, y, self.ridge)
+        own, more = weights[:X.shape[1]].copy(), weights[X.shape[1]:]
+        other = own.copy()
+        other[apart] += more
+        self.constants = constant, constant + own[self.by]
+        own[self.by] = other[self.by] = 0
+        self.weights = own, other
+        return self
+
+    def log_odds(self, X):
+        first, second = (c + X @ w for c, w in zip(self.constants, self.weights))
+        return np.where(X[:, self.by] > 0, second, first)
+
+
+def held_out(model, X, y, group):
+    """Log-odds of each row by a model fitted to the rows of all other groups; `model` makes one that is not fitted."""
     out = np.zeros(len(y))
     for g in np.unique(group):
         rest = group != g
-        constant, weights = fit(X[rest], y[rest], ridge, signs)
-        out[~rest] = constant + X[~rest] @ weights
+        out[~rest] = model().fit(X[rest], y[rest]).log_odds(X[~rest])
     return out
 
 

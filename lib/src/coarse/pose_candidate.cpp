@@ -12,6 +12,8 @@ std::string_view to_string(CoarseMethod method) {
       return "slide";
     case CoarseMethod::kGuess:
       return "initial pose";
+    case CoarseMethod::kImplied:
+      return "other links";
   }
   return "unknown";
 }

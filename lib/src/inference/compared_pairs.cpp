@@ -6,8 +6,8 @@
 namespace tcm_icp {
 namespace {
 
-// Hypotheses whose support would be below log(1 + e^-3) = 0.05 change nothing.
-constexpr double kLeastSupported = -3;
+// Hypotheses whose support would be below log(1 + e^-2) = 0.13 change nothing.
+constexpr double kLeastSupported = -2;
 
 }  // namespace
 
@@ -38,7 +38,8 @@ PairGraph::PairGraph(std::vector<ComparedPair> pairs, std::vector<PointMoments> 
       options_(options),
       of_scan_(moments_.size()) {
   for (auto& pair : pairs_) {
-    std::erase_if(pair.hypotheses, [&](const auto& h) { return h.log_odds + options_.log_poses < kLeastSupported; });
+    std::erase_if(pair.hypotheses, [&](const auto& h) { return h.log_odds + chance(h.implied) < kLeastSupported; });
+    for (auto& h : pair.hypotheses) h.mean = h.T_a_b * moments_[pair.b].mean;
   }
   std::erase_if(pairs_, [](const auto& pair) { return pair.hypotheses.empty(); });
   for (std::size_t k = 0; k < pairs_.size(); ++k) {
@@ -48,11 +49,15 @@ PairGraph::PairGraph(std::vector<ComparedPair> pairs, std::vector<PointMoments> 
 }
 
 double PairGraph::support(const ComparedPair& pair, const Eigen::Isometry3d& T_a, const Eigen::Isometry3d& T_b) const {
-  const Eigen::Isometry3d T_a_b = T_a.inverse() * T_b;
+  const Eigen::Vector3d mean = T_a.inverse() * (T_b * moments_[pair.b].mean);
   double best = 0;
   for (const PoseHypothesis& h : pair.hypotheses) {
-    if (!same_pose(pair.b, T_a_b, h.T_a_b)) continue;
-    best = std::max(best, std::log1p(std::exp(std::min(h.log_odds, options_.most_log_odds) + options_.log_poses)));
+    if ((h.mean - mean).squaredNorm() >= same_m_ * same_m_) continue;  // points are farther apart than their mean
+    const double apart_m = rms_displacement(T_b.inverse() * (T_a * h.T_a_b), moments_[pair.b]);
+    if (apart_m >= same_m_) continue;
+    const double near = options_.log_spread * std::log(std::max(8 * apart_m / same_m_, 1.0));
+    const double log_odds = std::min(h.log_odds, options_.most_log_odds) + chance(h.implied) - near;
+    best = std::max(best, std::log1p(std::exp(log_odds)));
   }
   return best;
 }
@@ -78,7 +83,9 @@ std::vector<Eigen::Isometry3d> PairGraph::poses_of(std::size_t scan, const Compo
     for (const PoseHypothesis& h : pair.hypotheses) {
       const Eigen::Isometry3d T = *component.T_reference_scan[other] * (pair.a == scan ? h.T_a_b.inverse() : h.T_a_b);
       const bool known =
-          std::any_of(out.begin(), out.end(), [&](const Eigen::Isometry3d& U) { return same_pose(scan, U, T); });
+          std::any_of(out.begin(), out.end(), [&](const Eigen::Isometry3d& U) {
+        return rms_displacement(U.inverse() * T, moments_[scan]) < same_m_ / 8;
+      });
       if (!known) out.push_back(T);
     }
   }

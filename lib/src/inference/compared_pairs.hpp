@@ -15,6 +15,9 @@ namespace tcm_icp {
 struct PoseHypothesis {
   Eigen::Isometry3d T_a_b = Eigen::Isometry3d::Identity();
   double log_odds = 0;  ///< that it is right, by the pair alone
+  /// Its fit started from where other pairs put the scans: that it lies there is no coincidence.
+  bool implied = false;
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();  ///< of b's points, in a's frame; PairGraph's
 };
 
 struct ComparedPair {
@@ -53,7 +56,10 @@ class PairGraph {
   }
 
   /// What a pair says for its scans' poses: the logarithm of how much likelier they are with its hypotheses than if all
-  /// of those were wrong, log(1 + exp(l + log_poses)) of the likeliest that agrees; 0 where none does. >= 0.
+  /// of those were wrong, log(1 + exp(l + c)) of the one that says most; 0 where none agrees. >= 0. c is what it is worth
+  /// that a hypothesis and the poses agree so closely: log_poses up to same_m / 8, from there on log_spread less for
+  /// every factor e in their distance, since wrong poses scatter and fits to a right one do not; and log_implied less
+  /// where it is implied.
   double support(const ComparedPair& pair, const Eigen::Isometry3d& T_a, const Eigen::Isometry3d& T_b) const;
 
   /// What the members of `component` say for `scan` at T, less log_poses, which one pose of many has to be worth. A
@@ -66,6 +72,8 @@ class PairGraph {
  private:
   std::vector<ComparedPair> pairs_;
   std::vector<PointMoments> moments_;
+  double chance(bool implied) const { return options_.log_poses - (implied ? options_.log_implied : 0); }
+
   double same_m_;
   InferenceOptions options_;
   std::vector<std::vector<std::size_t>> of_scan_;

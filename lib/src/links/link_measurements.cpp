@@ -11,6 +11,13 @@ namespace {
 
 constexpr double kBestQuantile = 0.95, kBetterShare = 0.1;
 
+// A pose that no search proposed has no rival either where nobody looked for one: that says nothing for it.
+double second_best(const SearchMeasurements& search) {
+  if (search.second_best_ratio > 0) return log_ratio(1, search.second_best_ratio);
+  const bool searched = search.method != CoarseMethod::kGuess && search.method != CoarseMethod::kImplied;
+  return searched ? std::log(kMostRatio) : 0;
+}
+
 }  // namespace
 
 SetReference SetReference::of(double voxel_m, double noise_m, const std::vector<LinkMeasurements>& hypotheses) {
@@ -50,14 +57,15 @@ LinkFeatures link_features(const LinkMeasurements& m, const std::optional<Search
   f[11] = tells_across(e) ? 0 : 1;
   f[12] = violations(m.free_space);
   f[13] = opposed(m.free_space);
-  f[14] = m.free_space.tells() ? 0 : 1;
+  f[14] = !m.free_space.tells() && m.sighted ? 1 : 0;
+  f[15] = !m.free_space.tells() && !m.sighted ? 1 : 0;
   if (!search) return f;
   const double margin = std::log(std::clamp(search->margin, 1 / kMostRatio, kMostRatio));
-  f[15] = search->second_best_ratio > 0 ? log_ratio(1, search->second_best_ratio) : std::log(kMostRatio);
-  f[16] = search->method == CoarseMethod::kHeightMap ? margin : 0;
-  f[17] = search->method == CoarseMethod::kHeightMap ? 1 : 0;
-  f[18] = search->method == CoarseMethod::kFeatures ? margin : 0;
-  f[19] = search->method == CoarseMethod::kSlide ? 1 : 0;
+  f[16] = second_best(*search);
+  f[17] = search->method == CoarseMethod::kHeightMap ? margin : 0;
+  f[18] = search->method == CoarseMethod::kHeightMap ? 1 : 0;
+  f[19] = search->method == CoarseMethod::kFeatures ? margin : 0;
+  f[20] = search->method == CoarseMethod::kSlide ? 1 : 0;
   return f;
 }
 

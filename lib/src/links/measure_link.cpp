@@ -24,7 +24,7 @@ LinkMeasurements measure_link(const PreparedScan& a, const PreparedScan& b, cons
   const bool first = b_in_a.overlap >= a_in_b.overlap;
   const AlignmentEvidence& other = first ? a_in_b : b_in_a;
   return {first ? one_way(a, b, T_a_b, true) : one_way(b, a, T_b_a, true), other.overlap, other.inlier_share,
-          free_space(a, b, T_a_b)};
+          free_space(a, b, T_a_b), a.sight.sees_space() && b.sight.sees_space()};
 }
 
 }  // namespace tcm_icp

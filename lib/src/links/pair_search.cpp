@@ -53,6 +53,7 @@ struct PairSearch::Impl {
   FeatureAlignmentOptions features;
   std::vector<DescribedScan> described;                                                  // once they are asked for
   std::map<std::pair<std::size_t, std::size_t>, std::vector<Eigen::Isometry3d>> fitted;  // target and source
+  std::map<std::pair<std::size_t, std::size_t>, std::vector<Eigen::Isometry3d>> implied;  // that were tried
 
   const PairScreening& screening_of(std::size_t a, std::size_t b) const {
     return screened[std::min(a, b) * scans.size() + std::max(a, b)];
@@ -182,6 +183,38 @@ struct PairSearch::Impl {
     return out;
   }
 
+  /// Fits pairs at given poses where they overlap there. False where there was none, or all were tried before.
+  bool try_poses(const std::vector<ImpliedPose>& poses, CoarseMethod method, HypothesisSet& set) {
+    std::map<ScanPairs::value_type, std::vector<PoseCandidate>> wanted;
+    std::vector<char> overlaps(poses.size(), false);
+    parallel_for(context.num_threads, poses.size(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t k = begin; k < end; ++k) {
+        const auto& [a, b, T_a_b] = poses[k];
+        const PyramidLevel &x = scans[a].pyramid.level(2), &y = scans[b].pyramid.level(2);
+        overlaps[k] = overlap({x.cloud.points, x.index}, {y.cloud.points, y.index}, T_a_b, 2 * x.voxel_size_m) >=
+                      kGuessedOverlap;
+      }
+    });
+    for (std::size_t k = 0; k < poses.size(); ++k) {
+      const auto& [a, b, T_a_b] = poses[k];
+      std::vector<Eigen::Isometry3d>& before = implied[{a, b}];
+      const bool known = std::any_of(before.begin(), before.end(), [&, b = b, &T = T_a_b](const Eigen::Isometry3d& U) {
+        return rms_displacement(T.inverse() * U, scans[b].moments) < set.same_m();
+      });
+      if (known || !overlaps[k]) continue;
+      before.push_back(T_a_b);
+      wanted[{a, b}].push_back({T_a_b, method, 1, 1});
+    }
+    ScanPairs pairs;
+    std::vector<std::vector<PoseCandidate>> candidates;
+    for (auto& [pair, found] : wanted) {
+      pairs.push_back(pair);
+      candidates.push_back(std::move(found));
+    }
+    if (!pairs.empty()) fit(pairs, candidates, set);
+    return !pairs.empty();
+  }
+
   /// The most promising candidate of every pair, then the next of pairs that have no clear hypothesis yet: what the set
   /// shows by then tells which have one.
   void fit(const ScanPairs& pairs, const std::vector<std::vector<PoseCandidate>>& candidates, HypothesisSet& set) {
@@ -230,22 +263,17 @@ PairSearch::PairSearch(const std::vector<PreparedScan>& scans, const LinkSearchO
 PairSearch::~PairSearch() = default;
 
 void PairSearch::try_guesses(const std::vector<std::optional<Eigen::Isometry3d>>& T_common_scan, HypothesisSet& set) {
-  const std::size_t n = impl_->scans.size();
-  ScanPairs pairs;
-  std::vector<std::vector<PoseCandidate>> candidates;
-  for (std::size_t a = 0; a < n; ++a) {
-    for (std::size_t b = a + 1; b < n; ++b) {
-      if (!T_common_scan[a] || !T_common_scan[b]) continue;
-      const Eigen::Isometry3d T_a_b = T_common_scan[a]->inverse() * *T_common_scan[b];
-      const PyramidLevel &x = impl_->scans[a].pyramid.level(2), &y = impl_->scans[b].pyramid.level(2);
-      if (overlap({x.cloud.points, x.index}, {y.cloud.points, y.index}, T_a_b, 2 * x.voxel_size_m) < kGuessedOverlap) {
-        continue;
-      }
-      pairs.emplace_back(a, b);
-      candidates.push_back({PoseCandidate{T_a_b, CoarseMethod::kGuess, 1, 1}});
+  std::vector<ImpliedPose> poses;
+  for (std::size_t a = 0; a < T_common_scan.size(); ++a) {
+    for (std::size_t b = a + 1; b < T_common_scan.size(); ++b) {
+      if (T_common_scan[a] && T_common_scan[b]) poses.push_back({a, b, T_common_scan[a]->inverse() * *T_common_scan[b]});
     }
   }
-  if (!pairs.empty()) impl_->fit(pairs, candidates, set);
+  impl_->try_poses(poses, CoarseMethod::kGuess, set);
+}
+
+bool PairSearch::try_implied(const std::vector<ImpliedPose>& poses, HypothesisSet& set) {
+  return impl_->try_poses(poses, CoarseMethod::kImplied, set);
 }
 
 bool PairSearch::extend(const std::vector<bool>& wanted, HypothesisSet& set) {

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "inference/implied_poses.hpp"
 #include "links/hypotheses.hpp"
 #include "links/link_fit.hpp"
 #include "scans/prepared_scan.hpp"
@@ -18,6 +19,10 @@ class PairSearch {
   /// Keeps references: all three must outlive the search.
   PairSearch(const std::vector<PreparedScan>& scans, const LinkSearchOptions& options, const RunContext& context);
   ~PairSearch();
+
+  /// Fits pairs from poses that others of their scans lead to, where they overlap there and were not tried before. True
+  /// where any was fitted.
+  bool try_implied(const std::vector<ImpliedPose>& poses, HypothesisSet& set);
 
   /// Fits the pairs of scans with initial poses from those, where they overlap there.
   void try_guesses(const std::vector<std::optional<Eigen::Isometry3d>>& T_common_scan, HypothesisSet& set);

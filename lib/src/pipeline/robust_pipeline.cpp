@@ -8,6 +8,7 @@
 #include "core/acceptance.hpp"
 #include "inference/configuration.hpp"
 #include "inference/cuts.hpp"
+#include "inference/implied_poses.hpp"
 #include "links/pair_search.hpp"
 #include "merging/merging.hpp"
 #include "pipeline/pipeline_input.hpp"
@@ -19,6 +20,8 @@
 
 namespace tcm_icp {
 namespace {
+
+constexpr int kMaxImplied = 3;  // rounds: what they show may move scans, which implies other poses
 
 class RobustPipeline {
  public:
@@ -66,10 +69,20 @@ class RobustPipeline {
     PairSearch search(scans_, options, in_.context);
     std::vector<bool> wanted(size(), true);
     while (search.extend(wanted, *hypotheses_)) {
+      for (int round = 0; round < kMaxImplied && search.try_implied(implied(), *hypotheses_);) ++round;
       wanted = without_clear_place();
       if (std::count(wanted.begin(), wanted.end(), true) == 0) break;
     }
     search.try_guesses(T_init_, *hypotheses_);  // they place what the search did not
+  }
+
+  std::vector<ImpliedPose> implied() const {
+    const PairGraph graph = hypotheses_->graph(std::vector<bool>(size(), true), in_.options.inference);
+    std::vector<ImpliedPose> out;
+    for (const Component& component : likeliest_components(graph)) {
+      for (const ImpliedPose& pose : implied_poses(graph, component, kLeadToRest)) out.push_back(pose);
+    }
+    return out;
   }
 
   std::vector<bool> without_clear_place() const {

@@ -24,6 +24,7 @@ namespace {
 // Of a scan: those it overlaps most with say what there is to say, and each costs time.
 constexpr std::size_t kMaxNeighbors = 6;
 constexpr std::size_t kUnionPoints = 1000;
+constexpr int kMaxRounds = 3;  // of moves to likelier places
 
 class Settling {
  public:
@@ -44,6 +45,7 @@ class Settling {
   SettledComponent run() {
     while (true) {
       adjust();
+      adjust_likelier();
       measure();
       const std::vector<std::size_t> dropped = decide_members();
       if (dropped.empty()) break;
@@ -75,6 +77,35 @@ class Settling {
     out_.adjustment = adjust_poses(scans_, out_.pairs, out_.component.reference, resolutions_, options_.adjustment,
                                    options_.lp, context_, T);
     for (const std::size_t i : out_.component.members()) out_.component.T_reference_scan[i] = T[i];
+  }
+
+  // Adjusted poses are closer to what is right than those of the hypotheses were: what agrees with them, and what agrees
+  // with another place better, shows now.
+  void adjust_likelier() {
+    for (int round = 0; round < kMaxRounds; ++round) {
+      const Component before = out_.component;
+      const double likelihood = log_likelihood(graph_, before);
+      improve(graph_, out_.component);
+      if (unmoved(before)) {
+        out_.component = before;
+        return;
+      }
+      adjust();
+      if (log_likelihood(graph_, out_.component) > likelihood) continue;
+      out_.component = before;
+      adjust();
+      return;
+    }
+  }
+
+  bool unmoved(const Component& before) const {
+    for (std::size_t i = 0; i < scans_.size(); ++i) {
+      if (before.has(i) != out_.component.has(i)) return false;
+      if (before.has(i) && !graph_.same_pose(i, *before.T_reference_scan[i], *out_.component.T_reference_scan[i])) {
+        return false;
+      }
+    }
+    return true;
   }
 
   void measure() {

@@ -6,10 +6,11 @@
 
 namespace tcm_icp {
 
-/// kSlide: a pose of one of the other two, moved along a corridor or a street. kGuess: the user's initial poses.
-enum class CoarseMethod { kFeatures, kHeightMap, kSlide, kGuess };
+/// kSlide: a pose of one of the first two, moved along a corridor or a street. kGuess: the user's initial poses.
+/// kImplied: by the links of other pairs.
+enum class CoarseMethod { kFeatures, kHeightMap, kSlide, kGuess, kImplied };
 
-/// "features", "height map", "slide" or "initial pose".
+/// "features", "height map", "slide", "initial pose" or "other links".
 std::string_view to_string(CoarseMethod method);
 
 struct PoseCandidate {

@@ -18,6 +18,7 @@ struct LinkMeasurements {
   double other_overlap = 0;       ///< of the other direction
   double other_inlier_share = 0;  ///< of the other direction
   FreeSpaceEvidence free_space;   ///< both directions together
+  bool sighted = false;           ///< both scans see space: free space that tells nothing means that they share none
 };
 
 /// What the search for the pose says of it.
@@ -39,13 +40,15 @@ struct SetReference {
 };
 
 /// Names of the numbers below, in their order.
-inline constexpr std::array<std::string_view, 20> kLinkFeatureNames{
+inline constexpr std::array<std::string_view, 21> kLinkFeatureNames{
     "log_overlap",       "log_other_overlap", "log_inlier_share",    "log_other_inlier_share",
     "inliers_by_best",   "residual_by_voxel", "residual_by_typical", "voxel_by_noise",
     "weakest_left",      "mean_left",         "left_across",         "across_unknown",
-    "violations",        "opposed",           "space_unseen",        "second_best",
-    "height_map_margin", "height_map",        "feature_margin",      "slide"};
-inline constexpr std::size_t kNumPoseFeatures = 15;  ///< the others are of the search
+    "violations",        "opposed",           "space_unseen",        "blind",
+    "second_best",       "height_map_margin", "height_map",          "feature_margin",
+    "slide"};
+inline constexpr std::size_t kBlind = 15;            ///< place of "blind": neither model judges what the other does
+inline constexpr std::size_t kNumPoseFeatures = 16;  ///< the others are of the search
 using LinkFeatures = std::array<double, kLinkFeatureNames.size()>;
 
 /// Finite, without a unit, each within bounds beyond which it says no more. Search features are 0 without a search.
