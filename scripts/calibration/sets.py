@@ -27,6 +27,8 @@ SCENES = (
     Scene("urban16", ("--scene", "urban", "--scans", "8", "--lines", "16", "--speed", "0")),
     Scene("canopy", ("--scene", "canopy", "--scans", "6")),
     Scene("strips", ("--scene", "canopy", "--scans", "6", "--sensor", "aerial")),
+    Scene("strips_far", ("--scene", "canopy", "--scans", "6", "--sensor", "aerial", "--overlap", "0.35", "--line-spacing",
+                         "0.6", "--range-noise", "0.1", "--angular-noise", "0.03", "--thinning", "0.4")),
     Scene("interior", ("--scene", "interior", "--scans", "6")),
     Scene("rooms", ("--scene", "interior", "--scans", "10", "--spacing", "4")),
     Scene("rooms16", ("--scene", "interior", "--scans", "8", "--sensor", "spinning", "--lines", "16", "--spacing", "3",

@@ -35,7 +35,7 @@ TEST_F(ComparedPairsTest, AComponentCountsAndListsItsMembers) {
   EXPECT_EQ(world_.truth({4, 0, 2}).members(), (std::vector<std::size_t>{0, 2, 4}));
 }
 
-// log(1 + e^(l + p)) - p, which is l + log(1 + e^-(l + p)): within e^-(3 + 3) of l from l = 3 on.
+// log(1 + e^(l + p)) - p, which is l + log(1 + e^-(l + p)): within e^-(3 + 4) of l from l = 3 on.
 TEST_F(ComparedPairsTest, ASingleHypothesisIsWorthItsLogOdds) {
   for (const double log_odds : {3.0, 4.5, 7.0}) {
     HypothesisWorld world(2, rng_);
@@ -50,11 +50,33 @@ TEST_F(ComparedPairsTest, EveryFurtherHypothesisThatAgreesAddsItsLogOddsAndLogPo
   ASSERT_GT(options_.log_poses, 1);
   world_.add(0, 3, {world_.hypothesis(0, 3, 4)});
   const double one = support(0);
-  world_.add(1, 3, {world_.aside(1, 3, 5, 0.4 * kSame_m)});
+  world_.add(1, 3, {world_.aside(1, 3, 5, 0.1 * kSame_m)});
   const double two = support(0);
   EXPECT_NEAR(two - one, 5 + options_.log_poses, 0.001);
-  world_.add(2, 3, {world_.aside(2, 3, 3, -0.4 * kSame_m)});
+  world_.add(2, 3, {world_.aside(2, 3, 3, -0.1 * kSame_m)});
   EXPECT_NEAR(support(0) - two, 3 + options_.log_poses, 0.003);
+}
+
+// Fits to one optimum end side by side; wrong poses lie anywhere.
+TEST_F(ComparedPairsTest, TheFartherAHypothesisLiesTheLessItSays) {
+  const auto alone = [&](double off_m) {
+    HypothesisWorld world(2, rng_);
+    world.add(0, 1, {world.aside(0, 1, 5, off_m)});
+    return world.graph().support_of(1, world.T_target_source(0, 1), world.truth({0}));
+  };
+  EXPECT_EQ(alone(0.12 * kSame_m), alone(0)) << "nearer than an eighth is near";
+  EXPECT_NEAR(alone(0.25 * kSame_m), 5 - options_.log_spread * std::log(2), 0.05);
+  EXPECT_NEAR(alone(0.5 * kSame_m), 5 - options_.log_spread * std::log(4), 0.1);
+  EXPECT_EQ(alone(1.01 * kSame_m), -options_.log_poses);
+}
+
+TEST_F(ComparedPairsTest, AFitThatStartedFromThesePosesSaysLess) {
+  world_.add(0, 3, {world_.hypothesis(0, 3, 6)});
+  const double one = support(0);
+  PoseHypothesis implied = world_.hypothesis(1, 3, 5);
+  implied.implied = true;
+  world_.add(1, 3, {implied});
+  EXPECT_NEAR(support(0) - one, 5 + options_.log_poses - options_.log_implied, 0.01);
 }
 
 // Two of them by chance at one place of e^3 is less likely than either being right.
@@ -77,7 +99,7 @@ TEST_F(ComparedPairsTest, HypothesesThatLeadElsewhereCountNothing) {
 }
 
 TEST_F(ComparedPairsTest, OfAPairsOwnHypothesesTheLikeliestThatAgreesCounts) {
-  world_.add(0, 3, {world_.aside(0, 3, 8, 10), world_.aside(0, 3, 3, 0.2 * kSame_m), world_.hypothesis(0, 3, 5)});
+  world_.add(0, 3, {world_.aside(0, 3, 8, 10), world_.aside(0, 3, 3, 0.1 * kSame_m), world_.hypothesis(0, 3, 5)});
   EXPECT_NEAR(support(0), 5, 0.001);
 }
 

@@ -64,7 +64,8 @@ TEST(LinkFeatures, AreBoundedWhateverWasMeasured) {
         for (const SetReference& set : {usual_set(), SetReference{1e300, 1e-300, 1e-12, 1e-300}}) {
           for (const double ratio : {0.0, 1e-300, 1.0, kInfinity}) {
             for (const CoarseMethod method :
-                 {CoarseMethod::kFeatures, CoarseMethod::kHeightMap, CoarseMethod::kSlide, CoarseMethod::kGuess}) {
+                 {CoarseMethod::kFeatures, CoarseMethod::kHeightMap, CoarseMethod::kSlide, CoarseMethod::kGuess,
+                  CoarseMethod::kImplied}) {
               expect_bounded(link_features(m, SearchMeasurements{method, ratio, ratio}, set), "an extreme");
             }
           }
@@ -143,6 +144,22 @@ TEST(LinkFeatures, ThoseOfTheSearchAreOfItsMethodAlone) {
   }
   EXPECT_GT(feature("second_best", of({CoarseMethod::kSlide, 2, 0})), feature("second_best", slide)) << "no other pose";
   EXPECT_LT(feature("second_best", of({CoarseMethod::kSlide, 2, 1.5})), 0) << "a better one";
+  EXPECT_EQ(feature("second_best", of({CoarseMethod::kImplied, 1, 0})), 0) << "nobody looked for another";
+}
+
+// Free space that shows nothing speaks against scans that see space, and says nothing of others.
+TEST(LinkFeatures, BlindScansAreToldFromScansThatSeeNothingOfOneAnother) {
+  LinkMeasurements m = usual_link();
+  m.free_space = {};
+  const auto features = [&](bool sighted) {
+    m.sighted = sighted;
+    return link_features(m, std::nullopt, usual_set());
+  };
+  EXPECT_EQ(feature("space_unseen", features(true)), 1);
+  EXPECT_EQ(feature("blind", features(true)), 0);
+  EXPECT_EQ(feature("space_unseen", features(false)), 0);
+  EXPECT_EQ(feature("blind", features(false)), 1);
+  EXPECT_EQ(kLinkFeatureNames[kBlind], "blind");
 }
 
 TEST(LinkFeatures, FewPointsSayThatTheyAreFewAndNothingElse) {

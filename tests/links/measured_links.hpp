@@ -22,6 +22,7 @@ inline LinkMeasurements usual_link() {
   m.other_overlap = 0.5;
   m.other_inlier_share = 0.75;
   m.free_space = {2000, 4, 1500, 30};
+  m.sighted = true;
   return m;
 }
 

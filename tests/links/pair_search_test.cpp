@@ -115,6 +115,24 @@ TEST(PairSearch, InitialPosesAreFittedWhereTheyOverlap) {
   EXPECT_EQ(tried(set).size(), 10u);
 }
 
+TEST(PairSearch, ImpliedPosesAreFittedOnceWhereTheyOverlap) {
+  Rng rng = make_stream(8, "pair_search_test");
+  const PreparedScene s = testing::prepared_scene({.num_scans = 3, .points_per_scan = 4000, .noise_m = 0.01}, rng);
+  const auto off = [&](std::size_t a, std::size_t b, double shift_m) {
+    return ImpliedPose{a, b, testing::perturbed(s.scene.T_target_source(a, b), s.scene.scans[b].points, 0.02, shift_m, rng)};
+  };
+  PairSearch search(s.scans, kOptions, kContext);
+  HypothesisSet set = no_hypotheses(s);
+  const std::vector<ImpliedPose> poses{off(0, 1, 0.2), off(1, 2, 1000)};
+  ASSERT_TRUE(search.try_implied(poses, set));
+  EXPECT_EQ(tried(set), (std::vector<Pair>{{0, 1}})) << "1 and 2 do not meet there";
+  const LinkHypothesis& found = set.pairs().at({0, 1}).front();
+  EXPECT_EQ(found.candidate.method, CoarseMethod::kImplied);
+  EXPECT_LE(error_m(s, {0, 1}, found), 0.25 * s.resolutions.coarse_m);
+  EXPECT_FALSE(search.try_implied(poses, set)) << "known";
+  EXPECT_FALSE(search.try_implied({}, set));
+}
+
 TEST(PairSearch, TriesThePairsOfWantedScansAlone) {
   Rng rng = make_stream(3, "pair_search_test");
   const PreparedScene s = testing::prepared_scene({.num_scans = 4, .points_per_scan = 2000}, rng);

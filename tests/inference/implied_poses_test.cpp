@@ -1,0 +1,68 @@
+#include "inference/implied_poses.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "inference/hypothesis_world.hpp"
+#include "support/matchers.hpp"
+
+namespace tcm_icp {
+namespace {
+
+using testing::HypothesisWorld;
+using testing::kSame_m;
+
+constexpr double kClearLead = 6, kRounding = 1e-9;
+
+class ImpliedPosesTest : public ::testing::Test {
+ protected:
+  std::vector<ImpliedPose> implied(const Component& component) const {
+    return implied_poses(world_.graph(), component, kClearLead);
+  }
+  bool is_near(const ImpliedPose& pose, double off_m) const {
+    const Eigen::Isometry3d T = world_.T_target_source(pose.a, pose.b) * Eigen::Translation3d(0, off_m, 0);
+    return testing::is_pose_near(T, pose.T_a_b, kRounding, kRounding);
+  }
+
+  Rng rng_ = make_stream(1, "implied_poses_test");
+  HypothesisWorld world_{5, rng_};
+};
+
+TEST_F(ImpliedPosesTest, PairsWithoutAHypothesisThatAgreesHaveThePoseOfTheirScans) {
+  world_.add(0, 1, {world_.hypothesis(0, 1, 8)});
+  world_.add(1, 2, {world_.aside(1, 2, 8, 0.5 * kSame_m)});   // agrees
+  world_.add(2, 3, {world_.aside(2, 3, -9, 20 * kSame_m)});   // does not
+  const auto found = implied(world_.truth({2, 0, 1, 3}));
+  std::vector<std::pair<std::size_t, std::size_t>> pairs;
+  for (const ImpliedPose& pose : found) {
+    pairs.emplace_back(pose.a, pose.b);
+    EXPECT_TRUE(is_near(pose, 0)) << pose.a << " " << pose.b;
+  }
+  std::sort(pairs.begin(), pairs.end());
+  EXPECT_EQ(pairs, (std::vector<std::pair<std::size_t, std::size_t>>{{0, 2}, {0, 3}, {1, 3}, {2, 3}}));
+}
+
+// 3 fits as well 7 m aside by one of its pairs: the other is asked there, too.
+TEST_F(ImpliedPosesTest, TheOtherPlaceOfAWeakCutIsAskedNoLess) {
+  for (const auto& [a, b] : {std::pair(0u, 1u), std::pair(0u, 3u), std::pair(1u, 3u)}) {
+    world_.add(a, b, {world_.hypothesis(a, b, 4)});
+  }
+  world_.add(0, 3, {world_.aside(0, 3, 7, 7)});
+  const auto found = implied(world_.truth({0, 1, 3}));
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].a, 1u);
+  EXPECT_EQ(found[0].b, 3u);
+  EXPECT_TRUE(is_near(found[0], 7));
+}
+
+TEST_F(ImpliedPosesTest, WhereALeadIsClearNoOtherPlaceIsAsked) {
+  for (const auto& [a, b] : {std::pair(0u, 1u), std::pair(0u, 3u), std::pair(1u, 3u)}) {
+    world_.add(a, b, {world_.hypothesis(a, b, 8)});
+  }
+  world_.add(0, 3, {world_.aside(0, 3, 2, 7)});
+  EXPECT_TRUE(implied(world_.truth({0, 1, 3})).empty());
+}
+
+}  // namespace
+}  // namespace tcm_icp
