@@ -33,6 +33,9 @@ SCENES = (
     Scene("rooms", ("--scene", "interior", "--scans", "10", "--spacing", "4")),
     Scene("rooms16", ("--scene", "interior", "--scans", "8", "--sensor", "spinning", "--lines", "16", "--spacing", "3",
                       "--height", "1.5", "--min-range", "0.3", "--max-range", "40")),
+    Scene("rooms_moving", ("--scene", "interior", "--scans", "10", "--sensor", "spinning", "--lines", "16", "--spacing", "1",
+                           "--height", "1.2", "--min-range", "0.3", "--max-range", "40", "--range-noise", "0.03",
+                           "--speed", "1")),
     Scene("plaza", ("--scene", "plaza", "--scans", "6")),
     Scene("bays", ("--scene", "bays", "--scans", "8")),
 )

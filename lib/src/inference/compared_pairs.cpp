@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace tcm_icp {
 namespace {
@@ -38,7 +39,9 @@ PairGraph::PairGraph(std::vector<ComparedPair> pairs, std::vector<PointMoments> 
       options_(options),
       of_scan_(moments_.size()) {
   for (auto& pair : pairs_) {
-    std::erase_if(pair.hypotheses, [&](const auto& h) { return h.log_odds + chance(h.implied) < kLeastSupported; });
+    std::erase_if(pair.hypotheses, [&](const auto& h) {
+      return !h.implied && h.log_odds + options_.log_poses < kLeastSupported;
+    });
     for (auto& h : pair.hypotheses) h.mean = h.T_a_b * moments_[pair.b].mean;
   }
   std::erase_if(pairs_, [](const auto& pair) { return pair.hypotheses.empty(); });
@@ -50,16 +53,18 @@ PairGraph::PairGraph(std::vector<ComparedPair> pairs, std::vector<PointMoments> 
 
 double PairGraph::support(const ComparedPair& pair, const Eigen::Isometry3d& T_a, const Eigen::Isometry3d& T_b) const {
   const Eigen::Vector3d mean = T_a.inverse() * (T_b * moments_[pair.b].mean);
-  double best = 0;
+  std::optional<double> best;
   for (const PoseHypothesis& h : pair.hypotheses) {
     if ((h.mean - mean).squaredNorm() >= same_m_ * same_m_) continue;  // points are farther apart than their mean
     const double apart_m = rms_displacement(T_b.inverse() * (T_a * h.T_a_b), moments_[pair.b]);
     if (apart_m >= same_m_) continue;
     const double near = options_.log_spread * std::log(std::max(8 * apart_m / same_m_, 1.0));
-    const double log_odds = std::min(h.log_odds, options_.most_log_odds) + chance(h.implied) - near;
-    best = std::max(best, std::log1p(std::exp(log_odds)));
+    const double chance = options_.log_poses - (h.implied ? options_.log_implied : 0) - near;
+    const double odds = std::exp(std::min(h.log_odds, options_.most_log_odds) + chance);
+    const double missed = h.implied ? std::exp(options_.log_missed) : 1;
+    best = std::max(best.value_or(-std::numeric_limits<double>::infinity()), std::log(missed + odds));
   }
-  return best;
+  return best.value_or(0);
 }
 
 double PairGraph::support_of(std::size_t scan, const Eigen::Isometry3d& T, const Component& component) const {

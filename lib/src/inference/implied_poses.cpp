@@ -21,8 +21,9 @@ bool agrees(const PairGraph& graph, std::size_t a, std::size_t b, const Eigen::I
 
 std::vector<ImpliedPose> implied_poses(const PairGraph& graph, const Component& component, double clear_lead) {
   std::vector<ImpliedPose> out;
+  std::size_t configuration = 0;
   const auto imply = [&](std::size_t a, std::size_t b, const Eigen::Isometry3d& T_a_b) {
-    if (!agrees(graph, a, b, T_a_b)) out.push_back({a, b, T_a_b});
+    out.push_back({a, b, T_a_b, agrees(graph, a, b, T_a_b), configuration});
   };
   const std::vector<std::size_t> members = component.members();
   const auto& T = component.T_reference_scan;
@@ -33,6 +34,7 @@ std::vector<ImpliedPose> implied_poses(const PairGraph& graph, const Component& 
   }
   for (const Cut& cut : weakest_cuts(graph, component)) {
     if (!cut.other_motion || cut.lead() >= clear_lead || cut.other_support <= 0) continue;
+    ++configuration;
     for (const std::size_t i : cut.moved) {
       const Eigen::Isometry3d T_moved = *cut.other_motion * *T[i];
       for (const std::size_t j : members) {

@@ -66,6 +66,7 @@ LinkFeatures link_features(const LinkMeasurements& m, const std::optional<Search
   f[18] = search->method == CoarseMethod::kHeightMap ? 1 : 0;
   f[19] = search->method == CoarseMethod::kFeatures ? margin : 0;
   f[20] = search->method == CoarseMethod::kSlide ? 1 : 0;
+  f[21] = search->method == CoarseMethod::kImplied || search->method == CoarseMethod::kGuess ? 1 : 0;
   return f;
 }
 

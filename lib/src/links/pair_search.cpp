@@ -6,6 +6,7 @@
 #include <map>
 #include <numeric>
 #include <optional>
+#include <set>
 
 #include "core/acceptance.hpp"
 #include "links/link_fit.hpp"
@@ -23,6 +24,8 @@ namespace {
 
 // A scan overlaps few others much. Where there are more, all pairs are ranked at little cost first.
 constexpr std::size_t kFirstPartners = 6;
+// What a scan shows with those that it overlaps with most is much the same with the others: more would count it again.
+constexpr std::size_t kImpliedPartners = 100;
 constexpr std::size_t kSlidesOfPose = 8;  // from one pose
 // Of a pair and method, beside those that free space vetoes; a clear hypothesis ends them.
 constexpr int kMaxFits = 3;
@@ -33,6 +36,23 @@ bool tilts(const Eigen::Isometry3d& T) { return T.linear()(2, 2) < std::cos(2 * 
 Cloud surfaces(const PreparedScan& scan, NormalSides sides) {
   const Cloud& cloud = scan.pyramid.level(0).cloud;
   return sides == NormalSides::kSeen ? Cloud{cloud.points, scan.sight.facing} : cloud;
+}
+
+// Those that overlap at all and are, for either scan and in their configuration, among the `most_partners` best;
+// ascending.
+std::vector<std::size_t> most_overlapping(const std::vector<ImpliedPose>& poses, const std::vector<double>& overlaps,
+                                          std::size_t most_partners) {
+  std::map<std::pair<std::size_t, std::size_t>, std::vector<std::size_t>> of_scan;  // by configuration and scan
+  for (std::size_t k = 0; k < poses.size(); ++k) {
+    if (overlaps[k] < kGuessedOverlap) continue;
+    for (const std::size_t i : {poses[k].a, poses[k].b}) of_scan[{poses[k].configuration, i}].push_back(k);
+  }
+  std::set<std::size_t> out;
+  for (auto& [place, all] : of_scan) {
+    std::stable_sort(all.begin(), all.end(), [&](std::size_t x, std::size_t y) { return overlaps[x] > overlaps[y]; });
+    out.insert(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(std::min(most_partners, all.size())));
+  }
+  return {out.begin(), out.end()};
 }
 
 enum class Tried : char { kNothing, kHeightMaps, kFeatures, kSlides };
@@ -183,25 +203,28 @@ struct PairSearch::Impl {
     return out;
   }
 
-  /// Fits pairs at given poses where they overlap there. False where there was none, or all were tried before.
-  bool try_poses(const std::vector<ImpliedPose>& poses, CoarseMethod method, HypothesisSet& set) {
+  /// Fits pairs at given poses where they overlap there; of each scan those with the `most_partners` it overlaps with
+  /// most. False where there was none, or all were tried before.
+  bool try_poses(const std::vector<ImpliedPose>& poses, CoarseMethod method, std::size_t most_partners,
+                 HypothesisSet& set) {
     std::map<ScanPairs::value_type, std::vector<PoseCandidate>> wanted;
-    std::vector<char> overlaps(poses.size(), false);
+    std::vector<double> overlaps(poses.size(), 0);
     parallel_for(context.num_threads, poses.size(), [&](std::size_t begin, std::size_t end) {
       for (std::size_t k = begin; k < end; ++k) {
-        const auto& [a, b, T_a_b] = poses[k];
+        const auto& [a, b, T_a_b, agrees, configuration] = poses[k];
         const PyramidLevel &x = scans[a].pyramid.level(2), &y = scans[b].pyramid.level(2);
-        overlaps[k] = overlap({x.cloud.points, x.index}, {y.cloud.points, y.index}, T_a_b, 2 * x.voxel_size_m) >=
-                      kGuessedOverlap;
+        overlaps[k] = overlap({x.cloud.points, x.index}, {y.cloud.points, y.index}, T_a_b, 2 * x.voxel_size_m);
       }
     });
-    for (std::size_t k = 0; k < poses.size(); ++k) {
-      const auto& [a, b, T_a_b] = poses[k];
+    for (const std::size_t k : most_overlapping(poses, overlaps, most_partners)) {
+      if (poses[k].agrees) continue;
+      const std::size_t a = poses[k].a, b = poses[k].b;
+      const Eigen::Isometry3d& T_a_b = poses[k].T_a_b;
       std::vector<Eigen::Isometry3d>& before = implied[{a, b}];
-      const bool known = std::any_of(before.begin(), before.end(), [&, b = b, &T = T_a_b](const Eigen::Isometry3d& U) {
-        return rms_displacement(T.inverse() * U, scans[b].moments) < set.same_m();
+      const bool known = std::any_of(before.begin(), before.end(), [&](const Eigen::Isometry3d& T) {
+        return rms_displacement(T_a_b.inverse() * T, scans[b].moments) < set.same_m();
       });
-      if (known || !overlaps[k]) continue;
+      if (known) continue;
       before.push_back(T_a_b);
       wanted[{a, b}].push_back({T_a_b, method, 1, 1});
     }
@@ -269,11 +292,11 @@ void PairSearch::try_guesses(const std::vector<std::optional<Eigen::Isometry3d>>
       if (T_common_scan[a] && T_common_scan[b]) poses.push_back({a, b, T_common_scan[a]->inverse() * *T_common_scan[b]});
     }
   }
-  impl_->try_poses(poses, CoarseMethod::kGuess, set);
+  impl_->try_poses(poses, CoarseMethod::kGuess, poses.size(), set);
 }
 
 bool PairSearch::try_implied(const std::vector<ImpliedPose>& poses, HypothesisSet& set) {
-  return impl_->try_poses(poses, CoarseMethod::kImplied, set);
+  return impl_->try_poses(poses, CoarseMethod::kImplied, kImpliedPartners, set);
 }
 
 bool PairSearch::extend(const std::vector<bool>& wanted, HypothesisSet& set) {
