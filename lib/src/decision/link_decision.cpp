@@ -17,17 +17,21 @@ std::string percent(double share) {
 
 }  // namespace
 
-LinkDecision decide_link(const LinkMeasurements& m, const SetReference& set) {
-  LinkDecision out;
+LinkRecord judge_link(std::size_t a, std::size_t b, const LinkMeasurements& m, const SetReference& set) {
+  LinkRecord out;
+  out.a = a;
+  out.b = b;
+  out.evidence = m.evidence;
+  out.free_space = m.free_space;
   out.probability = 1 / (1 + std::exp(-pose_log_odds(link_features(m, std::nullopt, set))));
   out.verdict = out.probability >= kLinkAccepted  ? "accepted"
                 : out.probability < kLinkRejected ? "rejected"
                                                   : "doubtful";
-  out.text = percent(m.evidence.overlap) + " overlap, " + percent(m.evidence.inlier_share) +
+  out.reason = percent(m.evidence.overlap) + " overlap, " + percent(m.evidence.inlier_share) +
              " of that agrees within the noise; " + percent(m.evidence.left_after_slide[0]) +
              " of the agreement is left when it slides along its weakest direction";
   if (m.free_space.tells()) {
-    out.text += "; " + percent(m.free_space.violation_share()) + " is seen through walls";
+    out.reason += "; " + percent(m.free_space.violation_share()) + " is seen through walls";
   }
   return out;
 }

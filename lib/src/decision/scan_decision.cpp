@@ -30,7 +30,7 @@ struct ScanModel {
 
 #include "scan_model.inc"
 
-constexpr double kMostLead = 20, kLeastLead = -10, kMostLink = 8;
+constexpr double kMostLead = 40, kLeastLead = -10, kMostLink = 8;
 constexpr double kLeastSigma = 0.01, kMostSigma = 2;  // in coarse voxels
 constexpr std::size_t kNumReasons = static_cast<std::size_t>(Reason::kTooFewPoints) + 1;
 

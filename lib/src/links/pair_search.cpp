@@ -24,8 +24,8 @@ namespace {
 
 // A scan overlaps few others much. Where there are more, all pairs are ranked at little cost first.
 constexpr std::size_t kFirstPartners = 6;
-// What a scan shows with those that it overlaps with most is much the same with the others: more would count it again.
-constexpr std::size_t kImpliedPartners = 100;
+// Bounds the cost in large sets. Fewer would not do: what tells a place from its twin is that all pairs there are poor.
+constexpr std::size_t kImpliedPartners = 12;
 constexpr std::size_t kSlidesOfPose = 8;  // from one pose
 // Of a pair and method, beside those that free space vetoes; a clear hypothesis ends them.
 constexpr int kMaxFits = 3;

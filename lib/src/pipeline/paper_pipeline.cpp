@@ -40,16 +40,7 @@ void report_links(const std::vector<PreparedScan>& scans, const std::vector<Eige
                   const std::vector<bool>& merged, const RunContext& context, PipelineResult& result) {
   const SetReference usual = SetReference::of(result.coarse_voxel_m, 0, {});
   for (const auto& [a, b] : overlapping_pairs(scans, T, merged, kMinLinkOverlap, context.num_threads)) {
-    const LinkMeasurements m = measure_link(scans[a], scans[b], T[a].inverse() * T[b]);
-    const LinkDecision decision = decide_link(m, usual);
-    LinkRecord record;
-    record.a = a;
-    record.b = b;
-    record.evidence = m.evidence;
-    record.probability = decision.probability;
-    record.verdict = decision.verdict;
-    record.reason = decision.text;
-    result.links.push_back(record);
+    result.links.push_back(judge_link(a, b, measure_link(scans[a], scans[b], T[a].inverse() * T[b]), usual));
   }
 }
 

@@ -53,7 +53,6 @@ class Settling {
       if (!out_.component.has(out_.component.reference)) choose_another_reference();
     }
     if (options_.reference.empty()) choose_best_reference();
-    finish();
     return std::move(out_);
   }
 
@@ -120,12 +119,8 @@ class Settling {
     });
     out_.links.clear();
     for (std::size_t k = 0; k < out_.pairs.size(); ++k) {
-      LinkRecord record;
-      record.a = out_.pairs[k].first;
-      record.b = out_.pairs[k].second;
-      record.evidence = link_measurements_[k].evidence;
-      record.free_space = link_measurements_[k].free_space;
-      out_.links.push_back(record);
+      const auto [a, b] = out_.pairs[k];
+      out_.links.push_back(judge_link(a, b, link_measurements_[k], hypotheses_.reference()));
     }
     measure_uncertainty(scans_, out_.pairs, out_.component.reference, resolutions_, T, context_.num_threads,
                         out_.uncertainty, out_.links);
@@ -256,15 +251,6 @@ class Settling {
       change_reference(out_.component, best);
       measure_uncertainty(scans_, out_.pairs, best, resolutions_, poses(), context_.num_threads, out_.uncertainty,
                           out_.links);
-    }
-  }
-
-  void finish() {
-    for (std::size_t k = 0; k < out_.links.size(); ++k) {
-      const LinkDecision decision = decide_link(link_measurements_[k], hypotheses_.reference());
-      out_.links[k].probability = decision.probability;
-      out_.links[k].verdict = decision.verdict;
-      out_.links[k].reason = decision.text;
     }
   }
 

@@ -61,7 +61,7 @@ enum class Reason {
 std::string_view to_string(Reason reason);
 
 struct DecisionOptions {
-  double confidence = 0.7;  ///< 0..1; least probability of a scan that counts as registered
+  double confidence = 0.8;  ///< 0..1; least probability of a scan that counts as registered
   void validate() const;    ///< throws InvalidOptions
 };
 
