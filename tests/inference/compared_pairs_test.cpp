@@ -137,10 +137,10 @@ TEST_F(ComparedPairsTest, EitherScanOfAPairIsLedToByTheOther) {
 
 TEST_F(ComparedPairsTest, PosesOfAScanComeOnceInTheOrderOfThePairs) {
   world_.add(0, 3, {world_.aside(0, 3, 1, 10), world_.hypothesis(0, 3, 5)});
-  world_.add(1, 3, {world_.aside(1, 3, 8, 0.5 * kSame_m), world_.aside(1, 3, 2, -20)});
+  world_.add(1, 3, {world_.aside(1, 3, 8, 0.1 * kSame_m), world_.aside(1, 3, 2, -20)});
   world_.add(3, 4, {world_.aside(3, 4, 8, 30)});  // no member
   const auto poses = world_.graph().poses_of(3, world_.truth({0, 1, 2}));
-  ASSERT_EQ(poses.size(), 3u) << "poses less than same_m apart are one";
+  ASSERT_EQ(poses.size(), 3u) << "poses less than an eighth of same_m apart are one";
   const std::vector<double> off_m{10, 0, -20};
   for (std::size_t k = 0; k < 3; ++k) {
     const Eigen::Isometry3d expected = world_.T_target_source(0, 3) * Eigen::Translation3d(0, off_m[k], 0);

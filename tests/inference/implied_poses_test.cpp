@@ -17,8 +17,11 @@ constexpr double kClearLead = 6, kRounding = 1e-9;
 
 class ImpliedPosesTest : public ::testing::Test {
  protected:
+  // Those that no hypothesis leads to.
   std::vector<ImpliedPose> implied(const Component& component) const {
-    return implied_poses(world_.graph(), component, kClearLead);
+    std::vector<ImpliedPose> found = implied_poses(world_.graph(), component, kClearLead);
+    std::erase_if(found, [](const ImpliedPose& pose) { return pose.agrees; });
+    return found;
   }
   bool is_near(const ImpliedPose& pose, double off_m) const {
     const Eigen::Isometry3d T = world_.T_target_source(pose.a, pose.b) * Eigen::Translation3d(0, off_m, 0);
@@ -31,8 +34,8 @@ class ImpliedPosesTest : public ::testing::Test {
 
 TEST_F(ImpliedPosesTest, PairsWithoutAHypothesisThatAgreesHaveThePoseOfTheirScans) {
   world_.add(0, 1, {world_.hypothesis(0, 1, 8)});
-  world_.add(1, 2, {world_.aside(1, 2, 8, 0.5 * kSame_m)});   // agrees
-  world_.add(2, 3, {world_.aside(2, 3, -9, 20 * kSame_m)});   // does not
+  world_.add(1, 2, {world_.aside(1, 2, 8, 0.5 * kSame_m)});  // agrees
+  world_.add(2, 3, {world_.aside(2, 3, -9, 20 * kSame_m)});  // does not
   const auto found = implied(world_.truth({2, 0, 1, 3}));
   std::vector<std::pair<std::size_t, std::size_t>> pairs;
   for (const ImpliedPose& pose : found) {
@@ -41,6 +44,9 @@ TEST_F(ImpliedPosesTest, PairsWithoutAHypothesisThatAgreesHaveThePoseOfTheirScan
   }
   std::sort(pairs.begin(), pairs.end());
   EXPECT_EQ(pairs, (std::vector<std::pair<std::size_t, std::size_t>>{{0, 2}, {0, 3}, {1, 3}, {2, 3}}));
+  const auto all = implied_poses(world_.graph(), world_.truth({2, 0, 1, 3}), kClearLead);
+  EXPECT_EQ(std::count_if(all.begin(), all.end(), [](const ImpliedPose& p) { return p.configuration == 0; }), 6)
+      << "those that agree are named, too";
 }
 
 // 3 fits as well 7 m aside by one of its pairs: the other is asked there, too.
@@ -54,6 +60,7 @@ TEST_F(ImpliedPosesTest, TheOtherPlaceOfAWeakCutIsAskedNoLess) {
   EXPECT_EQ(found[0].a, 1u);
   EXPECT_EQ(found[0].b, 3u);
   EXPECT_TRUE(is_near(found[0], 7));
+  EXPECT_NE(found[0].configuration, 0u);
 }
 
 TEST_F(ImpliedPosesTest, WhereALeadIsClearNoOtherPlaceIsAsked) {

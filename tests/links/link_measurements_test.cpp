@@ -63,9 +63,8 @@ TEST(LinkFeatures, AreBoundedWhateverWasMeasured) {
         m.evidence.left_across = left;
         for (const SetReference& set : {usual_set(), SetReference{1e300, 1e-300, 1e-12, 1e-300}}) {
           for (const double ratio : {0.0, 1e-300, 1.0, kInfinity}) {
-            for (const CoarseMethod method :
-                 {CoarseMethod::kFeatures, CoarseMethod::kHeightMap, CoarseMethod::kSlide, CoarseMethod::kGuess,
-                  CoarseMethod::kImplied}) {
+            for (const CoarseMethod method : {CoarseMethod::kFeatures, CoarseMethod::kHeightMap, CoarseMethod::kSlide,
+                                              CoarseMethod::kGuess, CoarseMethod::kImplied}) {
               expect_bounded(link_features(m, SearchMeasurements{method, ratio, ratio}, set), "an extreme");
             }
           }

@@ -119,7 +119,8 @@ TEST(PairSearch, ImpliedPosesAreFittedOnceWhereTheyOverlap) {
   Rng rng = make_stream(8, "pair_search_test");
   const PreparedScene s = testing::prepared_scene({.num_scans = 3, .points_per_scan = 4000, .noise_m = 0.01}, rng);
   const auto off = [&](std::size_t a, std::size_t b, double shift_m) {
-    return ImpliedPose{a, b, testing::perturbed(s.scene.T_target_source(a, b), s.scene.scans[b].points, 0.02, shift_m, rng)};
+    return ImpliedPose{a, b,
+                       testing::perturbed(s.scene.T_target_source(a, b), s.scene.scans[b].points, 0.02, shift_m, rng)};
   };
   PairSearch search(s.scans, kOptions, kContext);
   HypothesisSet set = no_hypotheses(s);

@@ -31,6 +31,15 @@ class SettledComponentTest : public ::testing::Test {
     auto& T = *component_.T_reference_scan[i];
     T = testing::perturbed(T, s_.scene.scans[i].points, angle_rad, shift_m, rng_);
   }
+  /// As if all pairs led to where the scans were put.
+  void join_all_as_put(double log_odds) {
+    for (std::size_t a = 0; a < s_.scans.size(); ++a) {
+      for (std::size_t b = a + 1; b < s_.scans.size(); ++b) {
+        pairs_.push_back(
+            {a, b, {{component_.T_reference_scan[a]->inverse() * *component_.T_reference_scan[b], log_odds}}});
+      }
+    }
+  }
   void join(std::size_t a, std::size_t b, double log_odds, const Isometry3d& motion = Isometry3d::Identity()) {
     pairs_.push_back({a, b, {{s_.scene.T_target_source(a, b) * motion, log_odds}}});
   }
@@ -95,8 +104,8 @@ TEST_F(SettledComponentTest, AllThatFitStayAndFitBetter) {
 TEST_F(SettledComponentTest, AMisplacedMemberIsTakenOutAndTheOthersAreNoneTheWorse) {
   for (const std::size_t wrong : {1u, 2u, 3u}) {
     see(testing::SyntheticShape::kRubble, 4);
-    join_all(8);
     displace(wrong, 1.2, 6);  // farther than the adjustment could bring back
+    join_all_as_put(8);
     options_.decision.confidence = 0.5;
     const SettledComponent out = settled();
     EXPECT_FALSE(out.component.has(wrong));
@@ -112,14 +121,25 @@ TEST_F(SettledComponentTest, AMisplacedMemberIsTakenOutAndTheOthersAreNoneTheWor
   }
 }
 
+TEST_F(SettledComponentTest, AMemberGoesBackToWhereItsPairsPutIt) {
+  see(testing::SyntheticShape::kRubble, 4);
+  join_all(8);
+  displace(2, 1.2, 6);
+  ASSERT_GT(error_m(component_, 2), 3);
+  options_.decision.confidence = 0.5;
+  const SettledComponent out = settled();
+  ASSERT_EQ(out.component.size(), 4u);
+  for (const std::size_t i : {1u, 2u, 3u}) EXPECT_LE(error_m(out.component, i), 0.1 * s_.resolutions.fine_m) << i;
+}
+
 // Where the wrong one is the reference, another member becomes it.
 TEST_F(SettledComponentTest, TheReferenceIsJudgedLikeTheOthers) {
   see(testing::SyntheticShape::kRubble, 4);
-  join_all(8);
   for (const std::size_t i : {1u, 2u, 3u}) {  // all others are right against one another
     component_.T_reference_scan[i] = Eigen::Translation3d(7, -5, 3) * Eigen::AngleAxisd(1.2, Eigen::Vector3d::UnitX()) *
                                      *component_.T_reference_scan[i];
   }
+  join_all_as_put(8);
   options_.decision.confidence = 0.5;
   const SettledComponent out = settled();
   EXPECT_EQ(out.component.members(), (Scans{1, 2, 3}));

@@ -28,8 +28,8 @@ LinkRecord judge_link(std::size_t a, std::size_t b, const LinkMeasurements& m, c
                 : out.probability < kLinkRejected ? "rejected"
                                                   : "doubtful";
   out.reason = percent(m.evidence.overlap) + " overlap, " + percent(m.evidence.inlier_share) +
-             " of that agrees within the noise; " + percent(m.evidence.left_after_slide[0]) +
-             " of the agreement is left when it slides along its weakest direction";
+               " of that agrees within the noise; " + percent(m.evidence.left_after_slide[0]) +
+               " of the agreement is left when it slides along its weakest direction";
   if (m.free_space.tells()) {
     out.reason += "; " + percent(m.free_space.violation_share()) + " is seen through walls";
   }

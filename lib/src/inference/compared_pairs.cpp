@@ -39,9 +39,8 @@ PairGraph::PairGraph(std::vector<ComparedPair> pairs, std::vector<PointMoments> 
       options_(options),
       of_scan_(moments_.size()) {
   for (auto& pair : pairs_) {
-    std::erase_if(pair.hypotheses, [&](const auto& h) {
-      return !h.implied && h.log_odds + options_.log_poses < kLeastSupported;
-    });
+    std::erase_if(pair.hypotheses,
+                  [&](const auto& h) { return !h.implied && h.log_odds + options_.log_poses < kLeastSupported; });
     for (auto& h : pair.hypotheses) h.mean = h.T_a_b * moments_[pair.b].mean;
   }
   std::erase_if(pairs_, [](const auto& pair) { return pair.hypotheses.empty(); });
@@ -87,8 +86,7 @@ std::vector<Eigen::Isometry3d> PairGraph::poses_of(std::size_t scan, const Compo
     if (!component.has(other)) continue;
     for (const PoseHypothesis& h : pair.hypotheses) {
       const Eigen::Isometry3d T = *component.T_reference_scan[other] * (pair.a == scan ? h.T_a_b.inverse() : h.T_a_b);
-      const bool known =
-          std::any_of(out.begin(), out.end(), [&](const Eigen::Isometry3d& U) {
+      const bool known = std::any_of(out.begin(), out.end(), [&](const Eigen::Isometry3d& U) {
         return rms_displacement(U.inverse() * T, moments_[scan]) < same_m_ / 8;
       });
       if (!known) out.push_back(T);

@@ -56,11 +56,11 @@ class PairGraph {
   }
 
   /// What a pair says for its scans' poses: the logarithm of how much likelier they are with its hypotheses than if all
-  /// of those were wrong, log(1 + exp(l + c)) of the one that says most; 0 where none agrees. c is what it is worth that
-  /// a hypothesis and the poses agree so closely: log_poses up to same_m / 8, from there on log_spread less for every
-  /// factor e in their distance, since wrong poses scatter and fits to a right one do not; and log_implied less where it
-  /// is implied. The 1 is of a search that missed the right pose. A fit that starts there misses it rarely: an implied
-  /// hypothesis of little odds counts against the poses, by log_missed at the most.
+  /// of those were wrong, log(1 + exp(l + c)) of the one that says most; 0 where none agrees. c is what it is worth
+  /// that a hypothesis and the poses agree so closely: log_poses up to same_m / 8, from there on log_spread less for
+  /// every factor e in their distance, since wrong poses scatter and fits to a right one do not; and log_implied less
+  /// where it is implied. The 1 is of a search that missed the right pose. A fit that starts there misses it rarely: an
+  /// implied hypothesis of little odds counts against the poses, by log_missed at the most.
   double support(const ComparedPair& pair, const Eigen::Isometry3d& T_a, const Eigen::Isometry3d& T_b) const;
 
   /// What the members of `component` say for `scan` at T, less log_poses, which one pose of many has to be worth. A

@@ -16,9 +16,9 @@ struct ImpliedPose {
   std::size_t configuration = 0;  ///< 0: the component; others: what a cut's other motion makes of it
 };
 
-/// Of every pair of members, its pose in the component; and of pairs across a cut whose lead is below `clear_lead`, their
-/// pose where the cut's other motion puts its part. A place is known by what its pairs show there, the other place no
-/// less than this one: pairs that no search brought there say as much. Whether the scans overlap is not asked.
+/// Of every pair of members, its pose in the component; and of pairs across a cut whose lead is below `clear_lead`,
+/// their pose where the cut's other motion puts its part. A place is known by what its pairs show there, the other
+/// place no less than this one: pairs that no search brought there say as much. Whether the scans overlap is not asked.
 std::vector<ImpliedPose> implied_poses(const PairGraph& graph, const Component& component, double clear_lead);
 
 }  // namespace tcm_icp

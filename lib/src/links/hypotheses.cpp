@@ -68,7 +68,8 @@ PairGraph HypothesisSet::graph(const std::vector<bool>& open, const InferenceOpt
   for (const auto& [pair, hypotheses] : pairs_) {
     if (!open[pair.first] || !open[pair.second]) continue;
     ComparedPair compared{pair.first, pair.second, {}};
-    for (const auto& h : hypotheses) compared.hypotheses.push_back({h.T_a_b, h.log_odds, h.candidate.method == CoarseMethod::kImplied});
+    for (const auto& h : hypotheses)
+      compared.hypotheses.push_back({h.T_a_b, h.log_odds, h.candidate.method == CoarseMethod::kImplied});
     pairs.push_back(std::move(compared));
   }
   return {std::move(pairs), moments_, same_m(), options};

@@ -71,8 +71,8 @@ struct PairSearch::Impl {
   std::vector<std::vector<std::size_t>> partners;
   std::vector<std::size_t> reach;  // how many of them were asked for, of each scan
   FeatureAlignmentOptions features;
-  std::vector<DescribedScan> described;                                                  // once they are asked for
-  std::map<std::pair<std::size_t, std::size_t>, std::vector<Eigen::Isometry3d>> fitted;  // target and source
+  std::vector<DescribedScan> described;                                                   // once they are asked for
+  std::map<std::pair<std::size_t, std::size_t>, std::vector<Eigen::Isometry3d>> fitted;   // target and source
   std::map<std::pair<std::size_t, std::size_t>, std::vector<Eigen::Isometry3d>> implied;  // that were tried
 
   const PairScreening& screening_of(std::size_t a, std::size_t b) const {
@@ -289,7 +289,8 @@ void PairSearch::try_guesses(const std::vector<std::optional<Eigen::Isometry3d>>
   std::vector<ImpliedPose> poses;
   for (std::size_t a = 0; a < T_common_scan.size(); ++a) {
     for (std::size_t b = a + 1; b < T_common_scan.size(); ++b) {
-      if (T_common_scan[a] && T_common_scan[b]) poses.push_back({a, b, T_common_scan[a]->inverse() * *T_common_scan[b]});
+      if (T_common_scan[a] && T_common_scan[b])
+        poses.push_back({a, b, T_common_scan[a]->inverse() * *T_common_scan[b]});
     }
   }
   impl_->try_poses(poses, CoarseMethod::kGuess, poses.size(), set);

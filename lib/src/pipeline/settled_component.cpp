@@ -78,8 +78,8 @@ class Settling {
     for (const std::size_t i : out_.component.members()) out_.component.T_reference_scan[i] = T[i];
   }
 
-  // Adjusted poses are closer to what is right than those of the hypotheses were: what agrees with them, and what agrees
-  // with another place better, shows now.
+  // Adjusted poses are closer to what is right than those of the hypotheses were: what agrees with them, and what
+  // agrees with another place better, shows now.
   void adjust_likelier() {
     for (int round = 0; round < kMaxRounds; ++round) {
       const Component before = out_.component;

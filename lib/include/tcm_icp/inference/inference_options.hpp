@@ -8,7 +8,7 @@ struct InferenceOptions {
   /// by chance is worth. Far fewer than fit into the search's space, since wrong hypotheses, too, lay walls on walls.
   double log_poses = 3;      ///< > 0
   double log_implied = 2;    ///< 0..log_poses; by how much less it says that a fit ends where it started from
-  double log_missed = -1.5;   ///< <= 0; logarithm of how often a fit that starts at the right pose shows nothing
+  double log_missed = -1.5;  ///< <= 0; logarithm of how often a fit that starts at the right pose shows nothing
   double log_spread = 3;     ///< >= 0; by how much less it says of poses that it is e times farther from
   double most_log_odds = 8;  ///< > 0; of one hypothesis: no pair is surer
   int max_starts = 24;       ///< >= 1; strongest hypotheses that configurations are grown from

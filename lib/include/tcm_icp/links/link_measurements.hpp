@@ -40,13 +40,28 @@ struct SetReference {
 };
 
 /// Names of the numbers below, in their order.
-inline constexpr std::array<std::string_view, 22> kLinkFeatureNames{
-    "log_overlap",       "log_other_overlap", "log_inlier_share",    "log_other_inlier_share",
-    "inliers_by_best",   "residual_by_voxel", "residual_by_typical", "voxel_by_noise",
-    "weakest_left",      "mean_left",         "left_across",         "across_unknown",
-    "violations",        "opposed",           "space_unseen",        "blind",
-    "second_best",       "height_map_margin", "height_map",          "feature_margin",
-    "slide",             "implied"};
+inline constexpr std::array<std::string_view, 22> kLinkFeatureNames{"log_overlap",
+                                                                    "log_other_overlap",
+                                                                    "log_inlier_share",
+                                                                    "log_other_inlier_share",
+                                                                    "inliers_by_best",
+                                                                    "residual_by_voxel",
+                                                                    "residual_by_typical",
+                                                                    "voxel_by_noise",
+                                                                    "weakest_left",
+                                                                    "mean_left",
+                                                                    "left_across",
+                                                                    "across_unknown",
+                                                                    "violations",
+                                                                    "opposed",
+                                                                    "space_unseen",
+                                                                    "blind",
+                                                                    "second_best",
+                                                                    "height_map_margin",
+                                                                    "height_map",
+                                                                    "feature_margin",
+                                                                    "slide",
+                                                                    "implied"};
 inline constexpr std::size_t kBlind = 15;            ///< place of "blind": neither model judges what the other does
 inline constexpr std::size_t kNumPoseFeatures = 16;  ///< the others are of the search
 using LinkFeatures = std::array<double, kLinkFeatureNames.size()>;
