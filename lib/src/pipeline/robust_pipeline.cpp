@@ -21,6 +21,12 @@
 namespace tcm_icp {
 namespace {
 
+// The likeliest poses by the hypotheses there are.
+struct Inferred {
+  PairGraph graph;
+  std::vector<Component> components;
+};
+
 constexpr int kMaxImplied = 3;  // rounds: what they show may move scans, which implies other poses
 
 class RobustPipeline {
@@ -69,25 +75,30 @@ class RobustPipeline {
     PairSearch search(scans_, options, in_.context);
     std::vector<bool> wanted(size(), true);
     while (search.extend(wanted, *hypotheses_)) {
-      for (int round = 0; round < kMaxImplied && search.try_implied(implied(), *hypotheses_);) ++round;
-      wanted = without_clear_place();
+      Inferred now = infer();
+      for (int round = 0; round < kMaxImplied && search.try_implied(implied(now), *hypotheses_); ++round) now = infer();
+      wanted = without_clear_place(now);
       if (std::count(wanted.begin(), wanted.end(), true) == 0) break;
     }
     search.try_guesses(T_init_, *hypotheses_);  // they place what the search did not
   }
 
-  std::vector<ImpliedPose> implied() const {
-    const PairGraph graph = hypotheses_->graph(std::vector<bool>(size(), true), in_.options.inference);
+  Inferred infer() const {
+    PairGraph graph = hypotheses_->graph(std::vector<bool>(size(), true), in_.options.inference);
+    std::vector<Component> components = likeliest_components(graph);
+    return {std::move(graph), std::move(components)};
+  }
+
+  static std::vector<ImpliedPose> implied(const Inferred& now) {
     std::vector<ImpliedPose> out;
-    for (const Component& component : likeliest_components(graph)) {
-      for (const ImpliedPose& pose : implied_poses(graph, component, kLeadToRest)) out.push_back(pose);
+    for (const Component& component : now.components) {
+      for (const ImpliedPose& pose : implied_poses(now.graph, component, kLeadToRest)) out.push_back(pose);
     }
     return out;
   }
 
-  std::vector<bool> without_clear_place() const {
-    const PairGraph graph = hypotheses_->graph(std::vector<bool>(size(), true), in_.options.inference);
-    const std::vector<Component> components = likeliest_components(graph);
+  std::vector<bool> without_clear_place(const Inferred& now) const {
+    const auto& [graph, components] = now;
     std::vector<bool> out(size(), true);
     if (components.empty()) return out;
     for (const std::size_t i : components.front().members()) out[i] = false;
