@@ -35,7 +35,7 @@ TEST_F(ComparedPairsTest, AComponentCountsAndListsItsMembers) {
   EXPECT_EQ(world_.truth({4, 0, 2}).members(), (std::vector<std::size_t>{0, 2, 4}));
 }
 
-// log(1 + e^(l + p)) - p, which is l + log(1 + e^-(l + p)): within e^-(3 + 4) of l from l = 3 on.
+// log(1 + e^(l + p)) - p, which is l + log(1 + e^-(l + p)): within e^-(3 + 3) of l from l = 3 on.
 TEST_F(ComparedPairsTest, ASingleHypothesisIsWorthItsLogOdds) {
   for (const double log_odds : {3.0, 4.5, 7.0}) {
     HypothesisWorld world(2, rng_);

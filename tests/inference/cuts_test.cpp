@@ -17,7 +17,7 @@ using Scans = std::vector<std::size_t>;
 
 constexpr double kRounding = 1e-9;
 
-// Of log(1 + e^(l + 4)) - 4 against l, from l = 3 on.
+// Of log(1 + e^(l + 3)) - 3 against l, from l = 3 on.
 constexpr double kOfLogOdds = 0.0025;
 
 class CutsTest : public ::testing::Test {
