@@ -33,6 +33,7 @@ PLACE, SIGNS = (0, 1), (1, 1, 1, 1, 1, -1, -1, -1, -1, 0, -1, -1, -1, 1, 1, -1, 
 # poses is by the pose model, which knows too little of kinds that it was not fitted to. Held-out kinds fare no worse.
 UNUSED = (12, 13, 14, 15)
 RIDGE = 2.0
+SPREAD = 1.0  # of sets' own constants in log-odds: InferenceOptions::set_spread
 
 
 def make_sets(options):
@@ -93,17 +94,17 @@ def head(options, count):
 
 
 def fit_links(options, folder, results):
-    X, y, scene, _ = labels.load(folder, results, "links")
+    X, y, scene, name_of_set = labels.load(folder, results, "links")
     names = names_of("links/link_measurements.hpp", "kLinkFeatureNames")
     blind, pose = names.index("blind"), names.index("blind") + 1
     searched = range(pose + 1, X.shape[1])  # the search knows nothing of viewpoints
     models, tables = [], []
     for name, part in (("hypothesis", X), ("pose", X[:, :pose])):
         def model():
-            return logistic.Split(blind, searched, RIDGE)
+            return logistic.Split(blind, searched, RIDGE, SPREAD)
 
-        models.append(model().fit(part, y))
-        tables.append(figures(name, logistic.held_out(model, part, y, scene), y))
+        models.append(model().fit(part, y, name_of_set))
+        tables.append(figures(name, logistic.held_out(model, part, y, scene, name_of_set), y))
     text = head(options, f"{len(y)} hypotheses ({int(y.sum())} right)")
     for name, model in zip(("kHypothesisModel", "kPoseModel"), models):
         halves = [f"{{{c:.5g},\n     {braces(np.pad(w, (0, X.shape[1] - len(w))))}}}"
@@ -114,7 +115,7 @@ def fit_links(options, folder, results):
 
 
 def fit_scans(options, folder, results):
-    X, y, scene, _ = labels.load(folder, results, "scans")
+    X, y, scene, name_of_set = labels.load(folder, results, "scans")
     quality = [k for k in range(X.shape[1]) if k not in PLACE + UNUSED]
 
     def model():
@@ -126,7 +127,7 @@ def fit_scans(options, folder, results):
         f"    {braces(whole.spread(0, X.shape[1]))},\n    {braces(whole.spread(1, X.shape[1]))},\n"
         f"    {braces(np.median(X[y > 0], 0))}}};\n")
     (ROOT / "lib/src/decision/scan_model.inc").write_text(text)
-    return [figures("scan", logistic.held_out(model, X, y, scene), y)]
+    return [figures("scan", logistic.held_out(model, X, y, scene, name_of_set), y)]
 
 
 def draw(tables):

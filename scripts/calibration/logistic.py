@@ -3,51 +3,50 @@
 import numpy as np
 
 
-def fit(X, y, ridge=1.0, signs=None):
-    """Constant and weights; where `signs` has +1 or -1, a weight of the other sign becomes 0, the worst first."""
-    free = np.ones(X.shape[1], bool)
-    while True:
-        constant, weights, scaled = _newton(X[:, free], y, ridge)
-        full, score = np.zeros(X.shape[1]), np.zeros(X.shape[1])
-        full[free], score[free] = weights, scaled
-        against = np.zeros(X.shape[1]) if signs is None else np.minimum(score * signs, 0)
-        if against.min() >= 0:
-            return constant, full
-        free[int(np.argmin(against))] = False
-
-
-def _newton(X, y, ridge, steps=60):
-    """Constant, weights, and weights of standardised features, on which `ridge` is."""
+def fit(X, y, group, ridge=1.0, spread=1.0):
+    """Constant and weights. Every group has a constant of its own besides, normally distributed with deviation `spread`
+    about 0 (a logistic model with random intercepts, by its mode): what makes all rows of a group look better or worse
+    alike is not put down to features. `ridge` is on weights of standardised features."""
     mean, deviation = X.mean(0), X.std(0) + 1e-9
     Z = np.c_[np.ones(len(X)), (X - mean) / deviation]
-    b = np.zeros(Z.shape[1])
+    _, of = np.unique(group, return_inverse=True)
+    count = of.max() + 1
+    b, own = np.zeros(Z.shape[1]), np.zeros(count)
     R = ridge * np.eye(Z.shape[1])
     R[0, 0] = 1e-6
-    for _ in range(steps):
-        p = 1 / (1 + np.exp(-np.clip(Z @ b, -40, 40)))
-        step = np.linalg.solve((Z * (p * (1 - p))[:, None]).T @ Z + R, Z.T @ (p - y) + R @ b)
-        b -= np.clip(step, -5, 5)
+    for _ in range(60):
+        p = 1 / (1 + np.exp(-np.clip(Z @ b + own[of], -40, 40)))
+        w = p * (1 - p)
+        # Newton's step; the groups' constants, of which each has rows of its own, are eliminated first.
+        mixed = np.array([np.bincount(of, z * w, count) for z in Z.T])
+        diagonal = np.bincount(of, w, count) + 1 / spread**2
+        gradient, gradient_own = Z.T @ (p - y) + R @ b, np.bincount(of, p - y, count) + own / spread**2
+        reduced = (Z * w[:, None]).T @ Z + R - (mixed / diagonal) @ mixed.T
+        step = np.linalg.solve(reduced, gradient - (mixed / diagonal) @ gradient_own)
+        step_own = (gradient_own - mixed.T @ step) / diagonal
+        b -= np.clip(step, -3, 3)
+        own -= np.clip(step_own, -3, 3)
         if abs(step).max() < 1e-8:
             break
     weights = b[1:] / deviation
-    return b[0] - weights @ mean, weights, b[1:]
+    return b[0] - weights @ mean, weights
 
 
 class Split:
     """Two logistic models of the same features, one for rows where column `by` is 0, one for the others. They share what
     does not differ: the ridge is on the difference, too."""
 
-    def __init__(self, by, alike, ridge=1.0):
-        """`alike`: columns whose weight both have in common."""
-        self.by, self.alike, self.ridge = by, alike, ridge
+    def __init__(self, by, alike, ridge=1.0, spread=1.0):
+        """`alike`: columns whose weight both have in common. `spread`: see fit()."""
+        self.by, self.alike, self.ridge, self.spread = by, alike, ridge, spread
 
     def _columns(self, X):
         apart = [k for k in range(X.shape[1]) if k != self.by and k not in self.alike]
         return np.c_[X, X[:, apart] * X[:, [self.by]]], apart
 
-    def fit(self, X, y):
+    def fit(self, X, y, group):
         Z, apart = self._columns(X)
-        constant, weights = fit(Z, y, self.ridge)
+        constant, weights = fit(Z, y, group, self.ridge, self.spread)
         own, more = weights[:X.shape[1]].copy(), weights[X.shape[1]:]
         other = own.copy()
         other[apart] += more
@@ -61,12 +60,12 @@ class Split:
         return np.where(X[:, self.by] > 0, second, first)
 
 
-def held_out(model, X, y, group):
-    """Log-odds of each row by a model fitted to the rows of all other groups; `model` makes one that is not fitted."""
+def held_out(model, X, y, kind, group):
+    """Log-odds of each row by a model fitted to the rows of all other kinds; `model` makes one that is not fitted."""
     out = np.zeros(len(y))
-    for g in np.unique(group):
-        rest = group != g
-        out[~rest] = model().fit(X[rest], y[rest]).log_odds(X[~rest])
+    for k in np.unique(kind):
+        rest = kind != k
+        out[~rest] = model().fit(X[rest], y[rest], group[rest]).log_odds(X[~rest])
     return out
 
 

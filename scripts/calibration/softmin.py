@@ -11,7 +11,7 @@ class TwoWays:
         self.signs = np.asarray(signs)
         self.ridge = ridge
 
-    def fit(self, X, y, steps=4000, rate=0.03):
+    def fit(self, X, y, _group=None, steps=4000, rate=0.03):
         """Adam on standardised features, weights of the wrong sign set to 0 after each step."""
         parts = [X[:, c] for c in self.columns]
         means, deviations = [p.mean(0) for p in parts], [p.std(0) + 1e-9 for p in parts]

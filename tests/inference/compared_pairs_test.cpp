@@ -148,6 +148,33 @@ TEST_F(ComparedPairsTest, PosesOfAScanComeOnceInTheOrderOfThePairs) {
   }
 }
 
+// Of what agrees, by how much it pulls; what lies elsewhere pulls not at all.
+TEST_F(ComparedPairsTest, TheMeanPoseLiesBetweenHypothesesThatAgree) {
+  const Component others = world_.truth({0, 1, 2});
+  const Eigen::Isometry3d T = world_.T_target_source(0, 3);
+  const auto off_m = [&](const Eigen::Isometry3d& U) -> Eigen::Vector3d { return (T.inverse() * U).translation(); };
+  EXPECT_EQ(off_m(world_.graph().mean_pose(3, T, others)), Eigen::Vector3d::Zero()) << "nothing agrees";
+  world_.add(0, 3, {world_.aside(0, 3, 5, 0.3 * kSame_m)});
+  world_.add(1, 3, {world_.aside(1, 3, 5, -0.3 * kSame_m), world_.aside(1, 3, 8, 5 * kSame_m)});
+  EXPECT_LT(off_m(world_.graph().mean_pose(3, T, others)).norm(), 0.01 * kSame_m);
+  world_.add(2, 3, {world_.aside(2, 3, -1.5, 0.3 * kSame_m)});
+  const Eigen::Vector3d moved_m = off_m(world_.graph().mean_pose(3, T, others));
+  EXPECT_GT(moved_m.y(), 0.02 * kSame_m);
+  EXPECT_LT(moved_m.y(), 0.1 * kSame_m) << "an unlikely one pulls less";
+}
+
+TEST_F(ComparedPairsTest, TheMeanPoseOfOneHypothesisIsItsOwn) {
+  for (const bool first : {false, true}) {
+    HypothesisWorld world(2, rng_);
+    const PoseHypothesis h = world.noisy(0, 1, 5, 0.01, 0.1, rng_);
+    world.add(0, 1, {h});
+    const std::size_t scan = first ? 0 : 1;
+    const Component other = world.truth({1 - scan});
+    const Eigen::Isometry3d mean = world.graph().mean_pose(scan, world.T_target_source(1 - scan, scan), other);
+    EXPECT_TRUE(testing::is_pose_near(mean, first ? h.T_a_b.inverse() : h.T_a_b, 1e-9, 1e-9));
+  }
+}
+
 TEST_F(ComparedPairsTest, WhatCanChangeNothingIsLeftOut) {
   world_.add(0, 1, {world_.hypothesis(0, 1, -50), world_.hypothesis(0, 1, 2)});
   world_.add(0, 2, {world_.hypothesis(0, 2, -50)});

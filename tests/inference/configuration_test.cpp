@@ -189,6 +189,31 @@ TEST_F(ConfigurationTest, ImproveMovesAScanToWhereTheOthersSupportItMost) {
 }
 
 // No single one of them can move: each would leave the two others.
+// Each hypothesis of a chain is off to the same side; links across it are not.
+TEST_F(ConfigurationTest, ImproveBringsPosesToTheMeanOfWhatAgrees) {
+  HypothesisWorld world(4, rng_);
+  for (const auto& [a, b] : {std::pair<std::size_t, std::size_t>{0, 1}, {1, 2}, {2, 3}}) {
+    world.add(a, b, {world.noisy(a, b, 7, 0, 0.2 * kSame_m, rng_)});
+  }
+  for (const auto& [a, b] : {std::pair<std::size_t, std::size_t>{0, 2}, {0, 3}, {1, 3}}) {
+    world.add(a, b, {world.hypothesis(a, b, 7)});
+  }
+  const PairGraph graph = world.graph();
+  Component component = component_of_one(0, 4);
+  for (std::size_t i = 1; i < 4; ++i) {
+    const ComparedPair& step = graph.pairs()[i - 1];
+    component.T_reference_scan[i] = *component.T_reference_scan[i - 1] * step.hypotheses.front().T_a_b;
+  }
+  const double before = log_likelihood(graph, component);
+  improve(graph, component);
+  EXPECT_GT(log_likelihood(graph, component), before + 0.1);
+  for (std::size_t i = 1; i < 4; ++i) {
+    EXPECT_LT(rms_displacement(world.T_target_source(0, i).inverse() * *component.T_reference_scan[i],
+                               PointMoments(world.points())),
+              0.2 * kSame_m);
+  }
+}
+
 TEST_F(ConfigurationTest, ImproveMovesAGroupAsAWhole) {
   HypothesisWorld world(6, rng_);
   for (const std::size_t first : {0u, 3u}) {

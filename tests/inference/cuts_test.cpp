@@ -175,6 +175,17 @@ TEST_F(CutsTest, AScanThatNothingHoldsHasANegativeLead) {
   EXPECT_FALSE(cut.other_motion);
 }
 
+TEST_F(CutsTest, TheLeadBetweenTwoScansIsOfTheWeakestCutThatPartsThem) {
+  for (const auto& [a, b] : {std::pair<std::size_t, std::size_t>{0, 1}, {3, 4}}) add(a, b, 8);
+  add(1, 3, 4);
+  const auto cuts = weakest_cuts(world_.graph(), world_.truth({0, 1, 3, 4}));
+  EXPECT_NEAR(lead_between(cuts, 0, 1), 8, kOfLogOdds);
+  EXPECT_NEAR(lead_between(cuts, 4, 3), 8, kOfLogOdds);
+  for (const auto& [a, b] : {std::pair<std::size_t, std::size_t>{0, 3}, {4, 1}, {0, 4}}) {
+    EXPECT_NEAR(lead_between(cuts, a, b), 4, kOfLogOdds);
+  }
+}
+
 TEST_F(CutsTest, OneScanAloneHasNoCuts) {
   add(0, 1, 6);
   EXPECT_TRUE(weakest_cuts(world_.graph(), component_of_one(0, 6)).empty());

@@ -15,7 +15,27 @@ namespace {
 using Eigen::Isometry3d;
 using testing::HypothesisWorld;
 
-// Every tree of hypotheses over some of the scans gives poses; the likeliest of all these.
+constexpr double kAverageGains = 4;  // at most, of log-likelihood: trees that are worse by more are not averaged
+
+// To the mean of what agrees, until nothing moves.
+double log_likelihood_at_mean_poses(const PairGraph& graph, Component component) {
+  double likelihood = log_likelihood(graph, component);
+  for (int sweep = 0; sweep < 20; ++sweep) {
+    for (const std::size_t i : component.members()) {
+      if (i == component.reference) continue;
+      const Isometry3d before = *component.T_reference_scan[i];
+      component.T_reference_scan[i] = graph.mean_pose(i, before, component);
+      const double now = log_likelihood(graph, component);
+      if (now > likelihood)
+        likelihood = now;
+      else
+        component.T_reference_scan[i] = before;
+    }
+  }
+  return likelihood;
+}
+
+// Every tree of hypotheses over some of the scans gives poses; the likeliest of all these, at their mean poses.
 class Exhaustive {
  public:
   explicit Exhaustive(const PairGraph& graph) : graph_(graph), group_(graph.num_scans()) {
@@ -65,7 +85,8 @@ class Exhaustive {
       }
     }
     if (component.size() != edges_.size() + 1) return;  // two trees
-    most_ = std::max(most_, log_likelihood(graph_, component));
+    if (log_likelihood(graph_, component) < most_ - kAverageGains) return;
+    most_ = std::max(most_, log_likelihood_at_mean_poses(graph_, component));
   }
 
   const PairGraph& graph_;

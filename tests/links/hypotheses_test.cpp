@@ -115,6 +115,33 @@ TEST_F(HypothesisSetTest, ScoringComparesWithTheWholeSet) {
   EXPECT_EQ(set_->reference().voxel_m, kVoxel_m);
 }
 
+// A loop tells which of its hypotheses are right, however poor all of them look.
+TEST_F(HypothesisSetTest, WhatTheSetsPosesConfirmMakesItsOtherHypothesesLikelier) {
+  for (const auto& [a, b] : Pairs{{0, 1}, {0, 2}, {1, 2}}) set_->add(a, b, {aside(a, b, 0)});
+  set_->add(0, 3, {aside(0, 3, 0, 0.3)});
+  set_->score();
+  const double before = set_->log_odds(0, 3), of_loop = set_->log_odds(0, 1);
+  const PairGraph graph = set_->graph({true, true, true, true}, {});
+  Component loop = component_of_one(0, 4);
+  for (const std::size_t i : {1, 2}) loop.T_reference_scan[i] = T_[0].inverse() * T_[i];
+  EXPECT_TRUE(set_->learn_constant(graph, {loop}));
+  const double constant = set_->reference().constant;
+  EXPECT_GT(constant, 0);
+  set_->score();
+  EXPECT_DOUBLE_EQ(set_->log_odds(0, 3), before + constant);
+  EXPECT_DOUBLE_EQ(set_->log_odds(0, 1), of_loop + constant);
+  EXPECT_FALSE(set_->learn_constant(graph, {loop})) << "learnt from what the hypotheses are by themselves";
+}
+
+TEST_F(HypothesisSetTest, WhatTheSetsPosesContradictMakesItsOtherHypothesesUnlikelier) {
+  for (const auto& [a, b] : Pairs{{0, 1}, {0, 2}, {1, 2}}) set_->add(a, b, {aside(a, b, 30), aside(a, b, -40)});
+  set_->score();
+  Component elsewhere = component_of_one(0, 4);
+  for (const std::size_t i : {1, 2}) elsewhere.T_reference_scan[i] = T_[0].inverse() * T_[i];
+  set_->learn_constant(set_->graph({true, true, true, true}, {}), {elsewhere});
+  EXPECT_LT(set_->reference().constant, 0);
+}
+
 TEST_F(HypothesisSetTest, TheGraphHasThePairsOfOpenScans) {
   for (const auto& [a, b] : Pairs{{0, 1}, {0, 3}, {1, 2}}) set_->add(a, b, {aside(a, b, 0)});
   set_->score();

@@ -23,7 +23,7 @@ LinkRecord judge_link(std::size_t a, std::size_t b, const LinkMeasurements& m, c
   out.b = b;
   out.evidence = m.evidence;
   out.free_space = m.free_space;
-  out.probability = 1 / (1 + std::exp(-pose_log_odds(link_features(m, std::nullopt, set))));
+  out.probability = 1 / (1 + std::exp(-set.constant - pose_log_odds(link_features(m, std::nullopt, set))));
   out.verdict = out.probability >= kLinkAccepted  ? "accepted"
                 : out.probability < kLinkRejected ? "rejected"
                                                   : "doubtful";

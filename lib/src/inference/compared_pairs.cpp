@@ -1,8 +1,8 @@
 #include "inference/compared_pairs.hpp"
 
+#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace tcm_icp {
 namespace {
@@ -50,20 +50,24 @@ PairGraph::PairGraph(std::vector<ComparedPair> pairs, std::vector<PointMoments> 
   }
 }
 
-double PairGraph::support(const ComparedPair& pair, const Eigen::Isometry3d& T_a, const Eigen::Isometry3d& T_b) const {
+Agreement PairGraph::agreement(const ComparedPair& pair, const Eigen::Isometry3d& T_a,
+                               const Eigen::Isometry3d& T_b) const {
   const Eigen::Vector3d mean = T_a.inverse() * (T_b * moments_[pair.b].mean);
-  std::optional<double> best;
+  Agreement best;
   for (const PoseHypothesis& h : pair.hypotheses) {
     if ((h.mean - mean).squaredNorm() >= same_m_ * same_m_) continue;  // points are farther apart than their mean
     const double apart_m = rms_displacement(T_b.inverse() * (T_a * h.T_a_b), moments_[pair.b]);
     if (apart_m >= same_m_) continue;
-    const double near = options_.log_spread * std::log(std::max(8 * apart_m / same_m_, 1.0));
+    const double beyond_m = std::max(apart_m, same_m_ / 8);
+    const double near = options_.log_spread * std::log(8 * beyond_m / same_m_);
     const double chance = options_.log_poses - (h.implied ? options_.log_implied : 0) - near;
     const double odds = std::exp(std::min(h.log_odds, options_.most_log_odds) + chance);
     const double missed = h.implied ? std::exp(options_.log_missed) : 1;
-    best = std::max(best.value_or(-std::numeric_limits<double>::infinity()), std::log(missed + odds));
+    const double says = std::log(missed + odds);
+    if (best.hypothesis != nullptr && says <= best.support) continue;
+    best = {says, &h, odds / (missed + odds) * options_.log_spread / (beyond_m * beyond_m)};
   }
-  return best.value_or(0);
+  return best;
 }
 
 double PairGraph::support_of(std::size_t scan, const Eigen::Isometry3d& T, const Component& component) const {
@@ -76,6 +80,36 @@ double PairGraph::support_of(std::size_t scan, const Eigen::Isometry3d& T, const
     sum += pair.a == scan ? support(pair, T, T_other) : support(pair, T_other, T);
   }
   return sum;
+}
+
+Eigen::Isometry3d PairGraph::mean_pose(std::size_t scan, const Eigen::Isometry3d& T, const Component& component) const {
+  const PointMoments& points = moments_[scan];
+  double sum = 0;
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d turned = Eigen::Matrix3d::Zero();
+  // Points on a line say nothing of a turn about it; the poses do.
+  const Eigen::Matrix3d spread = points.covariance + 1e-3 * points.covariance.trace() * Eigen::Matrix3d::Identity();
+  for (const std::size_t k : pairs_of(scan)) {
+    const ComparedPair& pair = pairs_[k];
+    const std::size_t other = pair.a == scan ? pair.b : pair.a;
+    if (!component.has(other)) continue;
+    const Eigen::Isometry3d& T_other = *component.T_reference_scan[other];
+    const Agreement says = pair.a == scan ? agreement(pair, T, T_other) : agreement(pair, T_other, T);
+    if (says.hypothesis == nullptr) continue;
+    const Eigen::Isometry3d& T_a_b = says.hypothesis->T_a_b;
+    const Eigen::Isometry3d pose = T_other * (pair.a == scan ? T_a_b.inverse() : T_a_b);
+    sum += says.pull;
+    centre += says.pull * (pose * points.mean);
+    turned += says.pull * pose.linear() * spread;
+  }
+  if (sum <= 0) return T;
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(turned, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const Eigen::Matrix3d &U = svd.matrixU(), &V = svd.matrixV();
+  const Eigen::Vector3d signs(1, 1, (U * V.transpose()).determinant() < 0 ? -1 : 1);
+  Eigen::Isometry3d mean = Eigen::Isometry3d::Identity();
+  mean.linear() = U * signs.asDiagonal() * V.transpose();
+  mean.translation() = centre / sum - mean.linear() * points.mean;
+  return mean;
 }
 
 std::vector<Eigen::Isometry3d> PairGraph::poses_of(std::size_t scan, const Component& component) const {

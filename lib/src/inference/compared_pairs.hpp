@@ -25,6 +25,13 @@ struct ComparedPair {
   std::vector<PoseHypothesis> hypotheses;
 };
 
+/// What a pair says of its scans' poses.
+struct Agreement {
+  double support = 0;
+  const PoseHypothesis* hypothesis = nullptr;  ///< that says most; none: none agrees
+  double pull = 0;                             ///< [1/m^2] with which it draws the poses to its own
+};
+
 /// Scans that hold together; poses in the local frame of the reference.
 struct Component {
   std::size_t reference = 0;
@@ -61,11 +68,21 @@ class PairGraph {
   /// every factor e in their distance, since wrong poses scatter and fits to a right one do not; and log_implied less
   /// where it is implied. The 1 is of a search that missed the right pose. A fit that starts there misses it rarely: an
   /// implied hypothesis of little odds counts against the poses, by log_missed at the most.
-  double support(const ComparedPair& pair, const Eigen::Isometry3d& T_a, const Eigen::Isometry3d& T_b) const;
+  double support(const ComparedPair& pair, const Eigen::Isometry3d& T_a, const Eigen::Isometry3d& T_b) const {
+    return agreement(pair, T_a, T_b).support;
+  }
+
+  /// The same, with the hypothesis it is due to. Its pull is the weight that makes a step of least squares one of
+  /// ascent in the support.
+  Agreement agreement(const ComparedPair& pair, const Eigen::Isometry3d& T_a, const Eigen::Isometry3d& T_b) const;
 
   /// What the members of `component` say for `scan` at T, less log_poses, which one pose of many has to be worth. A
   /// single hypothesis of log-odds l above 0 comes to about l; every other that agrees adds log_poses beside its own.
   double support_of(std::size_t scan, const Eigen::Isometry3d& T, const Component& component) const;
+
+  /// The pose that hypotheses which agree with `scan` at T lead to on average: least squares over its points, by their
+  /// pulls. T where none agrees.
+  Eigen::Isometry3d mean_pose(std::size_t scan, const Eigen::Isometry3d& T, const Component& component) const;
 
   /// Poses of `scan` that hypotheses of its pairs with members lead to, each once, in the order of the pairs.
   std::vector<Eigen::Isometry3d> poses_of(std::size_t scan, const Component& component) const;

@@ -8,7 +8,8 @@
 namespace tcm_icp {
 namespace {
 
-constexpr double kLeastGain = 1e-9;  // rounding is no gain
+constexpr double kLeastGain = 1e-9;     // rounding is no gain
+constexpr double kLeastAverage = 0.01;  // in log-likelihood; what less moves is left to the adjustment
 
 struct Start {
   double log_odds;
@@ -72,6 +73,21 @@ bool move_scans(const PairGraph& graph, Component& component) {
     }
   }
   return moved;
+}
+
+// To the mean of what agrees: chains of hypotheses add their errors up, and what lies off supports less. True where the
+// likelihood grew.
+bool average_poses(const PairGraph& graph, Component& component) {
+  double gain = 0;
+  for (const std::size_t i : component.members()) {
+    if (i == component.reference) continue;
+    const Eigen::Isometry3d T = *component.T_reference_scan[i], mean = graph.mean_pose(i, T, component);
+    const double more = graph.support_of(i, mean, component) - graph.support_of(i, T, component);
+    if (more <= kLeastGain) continue;
+    component.T_reference_scan[i] = mean;
+    gain += more;
+  }
+  return gain > kLeastAverage;
 }
 
 // Parts to where the rest supports them most, or out.
@@ -157,6 +173,7 @@ void improve(const PairGraph& graph, Component& component) {
   for (int sweep = 0; sweep < graph.options().max_sweeps; ++sweep) {
     bool moved = move_scans(graph, component);
     moved = move_groups(graph, component) || moved;
+    moved = average_poses(graph, component) || moved;
     keep_connected(graph, component);
     if (!moved) return;
   }

@@ -157,6 +157,15 @@ Cut measure_cut(const PairGraph& graph, const Component& component, std::vector<
   return cut;
 }
 
+double lead_between(const std::vector<Cut>& cuts, std::size_t a, std::size_t b) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Cut& cut : cuts) {
+    const auto moves = [&](std::size_t i) { return std::binary_search(cut.moved.begin(), cut.moved.end(), i); };
+    if (moves(a) != moves(b)) least = std::min(least, cut.lead());
+  }
+  return least;
+}
+
 std::vector<Cut> weakest_cuts(const PairGraph& graph, const Component& component) {
   std::set<std::vector<std::size_t>> parts;
   for (auto& part : minimum_cuts(supported_pairs(graph, component), component)) parts.insert(std::move(part));

@@ -30,4 +30,7 @@ Cut measure_cut(const PairGraph& graph, const Component& component, std::vector<
 /// the poses they lead to.
 std::vector<Cut> weakest_cuts(const PairGraph& graph, const Component& component);
 
+/// The least lead of the cuts between two members.
+double lead_between(const std::vector<Cut>& cuts, std::size_t a, std::size_t b);
+
 }  // namespace tcm_icp

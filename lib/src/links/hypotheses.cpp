@@ -1,13 +1,18 @@
 #include "links/hypotheses.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 
+#include "inference/cuts.hpp"
+#include "inference/set_constant.hpp"
 #include "links/link_likelihood.hpp"
 
 namespace tcm_icp {
 namespace {
+
+constexpr double kSameConstant = 0.1;  // log-odds; less moves no scan
 
 // Consensus of the best clearly different pose of the pair by this one's. Poses are looked at by the same points, so
 // that this tells them apart better than where they came from.
@@ -45,16 +50,40 @@ void HypothesisSet::score() {
   for (const auto& [pair, hypotheses] : pairs_) {
     for (const auto& h : hypotheses) all.push_back(h.measurements);
   }
+  const double constant = reference_.constant;
   reference_ = SetReference::of(voxel_m_, noise_m_, all);
+  reference_.constant = constant;
   for (auto& [pair, hypotheses] : pairs_) {
     for (auto& h : hypotheses) {
       h.second_best_ratio = second_best_ratio(h, hypotheses, moments_[pair.second], same_m());
-      h.log_odds = hypothesis_log_odds(link_features(
-          h.measurements, SearchMeasurements{h.candidate.method, h.candidate.margin, h.second_best_ratio}, reference_));
+      h.log_odds =
+          constant + hypothesis_log_odds(link_features(
+                         h.measurements,
+                         SearchMeasurements{h.candidate.method, h.candidate.margin, h.second_best_ratio}, reference_));
     }
     std::stable_sort(hypotheses.begin(), hypotheses.end(),
                      [](const LinkHypothesis& x, const LinkHypothesis& y) { return x.log_odds > y.log_odds; });
   }
+}
+
+bool HypothesisSet::learn_constant(const PairGraph& graph, const std::vector<Component>& components) {
+  std::vector<JudgedHypothesis> judged;
+  for (const Component& component : components) {
+    const std::vector<Cut> cuts = weakest_cuts(graph, component);
+    const auto& T = component.T_reference_scan;
+    for (const auto& [pair, hypotheses] : pairs_) {
+      const auto [a, b] = pair;
+      if (!component.has(a) || !component.has(b)) continue;
+      const double sure = 1 / (1 + std::exp(-lead_between(cuts, a, b)));
+      for (const auto& h : hypotheses) {
+        const bool right = rms_displacement((T[a]->inverse() * *T[b]).inverse() * h.T_a_b, moments_[b]) < same_m();
+        judged.push_back({h.log_odds - reference_.constant, right, sure});
+      }
+    }
+  }
+  const double before = reference_.constant;
+  reference_.constant = set_constant(judged, graph.options().set_spread);
+  return std::abs(reference_.constant - before) > kSameConstant;
 }
 
 double HypothesisSet::log_odds(std::size_t a, std::size_t b) const {

@@ -36,6 +36,12 @@ class HypothesisSet {
   /// Log-odds of all hypotheses anew: they are relative to one another. The likeliest of a pair comes first.
   void score();
 
+  /// Learns from the hypotheses that agree with `components`, and those that contradict them, how much likelier or
+  /// unlikelier this set's are than those of other sets that look alike: one constant in all log-odds. What hangs by a
+  /// small lead counts little. score() brings it into effect. Cost: pairs times scans.
+  /// @return whether the constant is another than before
+  bool learn_constant(const PairGraph& graph, const std::vector<Component>& components);
+
   const std::map<std::pair<std::size_t, std::size_t>, std::vector<LinkHypothesis>>& pairs() const { return pairs_; }
   const SetReference& reference() const { return reference_; }
   const std::vector<PointMoments>& moments() const { return moments_; }

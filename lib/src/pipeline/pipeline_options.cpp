@@ -46,6 +46,7 @@ void InferenceOptions::validate() const {
   require(log_poses > 0, "inference log_poses must be above 0", log_poses);
   require(log_implied >= 0 && log_implied <= log_poses, "inference log_implied must be between 0 and log_poses",
           log_implied);
+  require(set_spread >= 0, "inference set_spread must be at least 0", set_spread);
   require(log_missed <= 0, "inference log_missed must be at most 0", log_missed);
   require(log_spread >= 0, "inference log_spread must be at least 0", log_spread);
   require(most_log_odds > 0, "inference most_log_odds must be above 0", most_log_odds);

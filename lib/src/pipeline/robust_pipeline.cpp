@@ -27,6 +27,7 @@ struct Inferred {
   std::vector<Component> components;
 };
 
+constexpr int kMaxLearnt = 4;   // rounds: what the set's constant is, and which poses are likeliest with it
 constexpr int kMaxImplied = 3;  // rounds: what they show may move scans, which implies other poses
 
 class RobustPipeline {
@@ -83,10 +84,15 @@ class RobustPipeline {
     search.try_guesses(T_init_, *hypotheses_);  // they place what the search did not
   }
 
-  Inferred infer() const {
-    PairGraph graph = hypotheses_->graph(std::vector<bool>(size(), true), in_.options.inference);
-    std::vector<Component> components = likeliest_components(graph);
-    return {std::move(graph), std::move(components)};
+  Inferred infer() {
+    for (int round = 1;; ++round) {
+      PairGraph graph = hypotheses_->graph(std::vector<bool>(size(), true), in_.options.inference);
+      std::vector<Component> components = likeliest_components(graph);
+      if (round == kMaxLearnt || !hypotheses_->learn_constant(graph, components)) {
+        return {std::move(graph), std::move(components)};
+      }
+      hypotheses_->score();
+    }
   }
 
   static std::vector<ImpliedPose> implied(const Inferred& now) {

@@ -199,7 +199,8 @@ class Settling {
       };
       if (moves(out_.pairs[k].first) == moves(out_.pairs[k].second)) continue;
       const LinkMeasurements& link = link_measurements_[k];
-      m.link_log_odds.push_back(pose_log_odds(link_features(link, std::nullopt, hypotheses_.reference())));
+      const SetReference& set = hypotheses_.reference();
+      m.link_log_odds.push_back(set.constant + pose_log_odds(link_features(link, std::nullopt, set)));
       m.free_space_across += link.free_space;
     }
     if (!weakest->other_motion || weakest->other_support <= 0) return;

@@ -11,9 +11,11 @@ struct InferenceOptions {
   double log_missed = -1.5;  ///< <= 0; logarithm of how often a fit that starts at the right pose shows nothing
   double log_spread = 3;     ///< >= 0; by how much less it says of poses that it is e times farther from
   double most_log_odds = 8;  ///< > 0; of one hypothesis: no pair is surer
-  int max_starts = 24;       ///< >= 1; strongest hypotheses that configurations are grown from
-  int max_sweeps = 10;       ///< >= 1; of moves of single scans and of groups
-  void validate() const;     ///< throws InvalidOptions
+  /// >= 0; deviation, over sets, of a constant in the log-odds of all hypotheses of a set: what simulated sets have.
+  double set_spread = 1;
+  int max_starts = 24;    ///< >= 1; strongest hypotheses that configurations are grown from
+  int max_sweeps = 10;    ///< >= 1; of moves of single scans and of groups
+  void validate() const;  ///< throws InvalidOptions
 };
 
 }  // namespace tcm_icp
