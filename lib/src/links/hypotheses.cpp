@@ -76,6 +76,7 @@ bool HypothesisSet::learn_constant(const PairGraph& graph, const std::vector<Com
       if (!component.has(a) || !component.has(b)) continue;
       const double sure = 1 / (1 + std::exp(-lead_between(cuts, a, b)));
       for (const auto& h : hypotheses) {
+        if (h.candidate.method == CoarseMethod::kImplied) continue;  // agrees with poses right or wrong
         const bool right = rms_displacement((T[a]->inverse() * *T[b]).inverse() * h.T_a_b, moments_[b]) < same_m();
         judged.push_back({h.log_odds - reference_.constant, right, sure});
       }
