@@ -28,10 +28,7 @@ except ImportError:
 from calibration import labels, logistic, sets, softmin
 
 ROOT = Path(__file__).resolve().parent.parent
-PLACE, SIGNS = (0, 1), (1, 1, 1, 1, 1, -1, -1, -1, -1, 0, -1, -1, -1, 1, 1, -1, 1, -1)
-# Whether free space was seen tells one kind of scene from another rather than right from wrong. What links say at the final
-# poses is by the pose model, which knows too little of kinds that it was not fitted to. Held-out kinds fare no worse.
-UNUSED = (12, 13, 14, 15)
+PLACE, SIGNS = (0, 1), (1, 1, 1, 1, 1, -1, -1, -1, -1, 0, -1, -1, 1, -1)
 RIDGE = 2.0
 SPREAD = 0.5  # of sets' own constants in log-odds; of 0, 0.5, 1 and 2 best where each run then learns its own
 
@@ -116,7 +113,7 @@ def fit_links(options, folder, results):
 
 def fit_scans(options, folder, results):
     X, y, scene, name_of_set = labels.load(folder, results, "scans")
-    quality = [k for k in range(X.shape[1]) if k not in PLACE + UNUSED]
+    quality = [k for k in range(X.shape[1]) if k not in PLACE]
 
     def model():
         return softmin.TwoWays(PLACE, quality, SIGNS, RIDGE)

@@ -27,7 +27,7 @@ ScanMeasurements good() {
   m.evidence.num_across = 200;
   m.free_space = {4000, 4, 3000, 20};
   m.lead = m.support = 20;
-  m.link_log_odds = {8, 8, 7};
+  m.num_across = 3;
   return m;
 }
 
@@ -42,7 +42,7 @@ ScanMeasurements terrible() {
   m.lead = -5;
   m.support = 3;
   m.other_distance = 12.5;
-  m.link_log_odds = {-8, -6};
+  m.num_across = 2;
   return m;
 }
 
@@ -147,7 +147,7 @@ TEST(Decide, EveryRefusalHasAReasonOfTheScan) {
     if (k & 2) m.evidence.inlier_share = bad.evidence.inlier_share;
     if (k & 4) m.evidence.left_after_slide = bad.evidence.left_after_slide;
     if (k & 8) m.free_space = bad.free_space;
-    if (k & 16) m.link_log_odds = bad.link_log_odds;
+    if (k & 16) m.sigma_in_voxels = 2;
     if (k & 32) m.evidence.num_points = 20;
     const Decision d = decide(m, kUsual, {.confidence = 0.999999});
     EXPECT_EQ(d.accepted(), d.probability >= 0.999999) << k;
@@ -166,10 +166,8 @@ TEST(DecisionFeatures, AreFiniteAndBoundedWhateverWasMeasured) {
   most.evidence.left_after_slide.fill(1e300);
   most.evidence.left_across = 1e300;
   most.lead = std::numeric_limits<double>::infinity();
-  most.link_log_odds = {1e300, 1e300};
   most.free_space = {1u << 30, 1u << 30, 1u << 30, 1u << 30};
   least.lead = -std::numeric_limits<double>::infinity();
-  least.link_log_odds = {-1e300};
   for (const ScanMeasurements& m : {good(), terrible(), most, least, ScanMeasurements{}}) {
     for (const ComponentReference& component : {kUsual, ComponentReference{}, ComponentReference{1, 1e-300}}) {
       const DecisionFeatures f = decision_features(m, component);

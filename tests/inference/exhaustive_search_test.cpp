@@ -113,7 +113,7 @@ HypothesisWorld small_set(Rng& rng) {
   return world;
 }
 
-// Of these the search misses 12.
+// Of these the search misses 8.
 TEST(LikeliestComponents, AreTheLikeliestOfAllInNearlyAllSmallSets) {
   constexpr int kSets = 200;
   constexpr double kOfNoise = 0.5;  // of log-likelihood: which of two fits to one optimum a scan is put by
@@ -147,7 +147,7 @@ TEST(LikeliestComponents, AreTheLikeliestOfAllInNearlyAllSmallSets) {
   RecordProperty("reached", reached);
   RecordProperty("likelier", likelier);
   EXPECT_LE(likelier, kSets / 10) << "all trees of all hypotheses are nearly all there is";
-  EXPECT_GE(reached, 92 * kSets / 100) << "the worst lost " << worst_loss;
+  EXPECT_GE(reached, 94 * kSets / 100) << "the worst lost " << worst_loss;
 }
 
 }  // namespace

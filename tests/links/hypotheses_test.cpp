@@ -117,8 +117,11 @@ TEST_F(HypothesisSetTest, ScoringComparesWithTheWholeSet) {
 
 // A loop tells which of its hypotheses are right, however poor all of them look.
 TEST_F(HypothesisSetTest, WhatTheSetsPosesConfirmMakesItsOtherHypothesesLikelier) {
-  for (const auto& [a, b] : Pairs{{0, 1}, {0, 2}, {1, 2}}) set_->add(a, b, {aside(a, b, 0)});
-  set_->add(0, 3, {aside(0, 3, 0, 0.3)});
+  for (const auto& [a, b] : Pairs{{0, 1}, {0, 2}, {1, 2}, {0, 3}}) {
+    LinkHypothesis poor = aside(a, b, 0, 0.1);
+    poor.measurements.evidence.left_after_slide = {1, 0.9, 0.8, 0.7, 0.6, 0.5};
+    set_->add(a, b, {poor});
+  }
   set_->score();
   const double before = set_->log_odds(0, 3), of_loop = set_->log_odds(0, 1);
   const PairGraph graph = set_->graph({true, true, true, true}, {});

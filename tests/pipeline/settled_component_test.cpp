@@ -87,7 +87,7 @@ TEST_F(SettledComponentTest, AllThatFitStayAndFitBetter) {
     EXPECT_LE(error_m(out.component, i), tolerance) << i;
     ASSERT_TRUE(out.measurements[i]) << "the reference is judged like the others";
     EXPECT_GT(out.measurements[i]->evidence.consensus(), 0.3);
-    EXPECT_EQ(out.measurements[i]->link_log_odds.size(), 3u);
+    EXPECT_EQ(out.measurements[i]->num_across, 3u);
     EXPECT_GT(out.measurements[i]->lead, 20) << "three pairs agree";
     EXPECT_FALSE(out.measurements[i]->other_distance);
     EXPECT_EQ(out.decisions[i].reason, Reason::kAccepted);

@@ -29,8 +29,6 @@ constexpr double kLeadToRest = 6;
 constexpr double kMinLinkOverlap = 0.1;
 /// Probability from which on a link is accepted, and below which it is rejected; it sets no scan aside.
 constexpr double kLinkAccepted = 0.95, kLinkRejected = 0.5;
-/// Log-odds below which a link counts as contradicting its pose: 20 to 1 against.
-constexpr double kContradicting = -3;
 
 // --- Scans
 

@@ -30,7 +30,7 @@ struct ScanModel {
 
 #include "scan_model.inc"
 
-constexpr double kMostLead = 40, kLeastLead = -10, kMostLink = 8;
+constexpr double kMostLead = 40, kLeastLead = -10;
 constexpr double kLeastSigma = 0.01, kMostSigma = 2;  // in coarse voxels
 constexpr std::size_t kNumReasons = static_cast<std::size_t>(Reason::kTooFewPoints) + 1;
 
@@ -51,8 +51,8 @@ std::string figure(double value) {
 // What features belong to what can be said of a scan.
 Reason reason_of(std::size_t feature) {
   if (feature <= 1) return Reason::kAmbiguous;
-  if (feature == 17) return Reason::kInexact;
-  if (feature <= 5 || feature >= 13) return Reason::kMisfit;
+  if (feature == 13) return Reason::kInexact;
+  if (feature <= 5 || feature == 12) return Reason::kMisfit;
   return feature <= 9 ? Reason::kSlides : Reason::kSeenThrough;
 }
 
@@ -100,13 +100,6 @@ ComponentReference ComponentReference::of(const std::vector<ScanMeasurements>& m
 DecisionFeatures decision_features(const ScanMeasurements& m, const ComponentReference& component) {
   const AlignmentEvidence& e = m.evidence;
   const double lead = std::clamp(m.lead, kLeastLead, kMostLead);
-  double best = -kMostLink, mean = 0, contradicting = 0;
-  for (const double l : m.link_log_odds) {
-    const double bounded = std::clamp(l, -kMostLink, kMostLink);
-    best = std::max(best, bounded);
-    mean += bounded / static_cast<double>(m.link_log_odds.size());
-    contradicting += (l < kContradicting ? 1 : 0) / static_cast<double>(m.link_log_odds.size());
-  }
   DecisionFeatures f{};
   f[0] = lead;
   f[1] = lead > 0 ? std::log1p(lead) : lead;
@@ -120,12 +113,8 @@ DecisionFeatures decision_features(const ScanMeasurements& m, const ComponentRef
   f[9] = tells_across(e) ? 0 : 1;
   f[10] = std::max(violations(m.free_space), violations(m.free_space_across));
   f[11] = std::max(opposed(m.free_space), opposed(m.free_space_across));
-  f[12] = m.free_space.tells() ? 0 : 1;
-  f[13] = best;
-  f[14] = mean;
-  f[15] = contradicting;
-  f[16] = std::log(std::clamp(agreeing(e), 1.0, 1000.0) / 1000);
-  f[17] = std::log(std::clamp(m.sigma_in_voxels.value_or(kMostSigma), kLeastSigma, kMostSigma));
+  f[12] = std::log(std::clamp(agreeing(e), 1.0, 1000.0) / 1000);
+  f[13] = std::log(std::clamp(m.sigma_in_voxels.value_or(kMostSigma), kLeastSigma, kMostSigma));
   return f;
 }
 
@@ -165,7 +154,7 @@ Decision decide(const ScanMeasurements& m, const ComponentReference& component, 
   Decision decision;
   decision.features = decision_features(m, component);
   if (agreeing(m.evidence) < static_cast<double>(kFewAgreeing)) {
-    decision.reason = m.link_log_odds.empty()                ? Reason::kNoLink
+    decision.reason = m.num_across == 0                      ? Reason::kNoLink
                       : m.evidence.num_points < kFewAgreeing ? Reason::kTooFewPoints
                                                              : Reason::kMisfit;
     decision.text = describe(decision.reason, m, component);

@@ -24,9 +24,11 @@ struct Place {
 
 std::optional<Place> best_place(const PairGraph& graph, std::size_t scan, const Component& component) {
   std::optional<Place> best;
-  for (const Eigen::Isometry3d& T : graph.poses_of(scan, component)) {
-    const double support = graph.support_of(scan, T, component);
-    if (!best || support > best->support + kLeastGain) best = Place{support, T};
+  for (const Eigen::Isometry3d& led_to : graph.poses_of(scan, component)) {
+    for (const Eigen::Isometry3d& T : {led_to, graph.mean_pose(scan, led_to, component)}) {
+      const double support = graph.support_of(scan, T, component);
+      if (!best || support > best->support + kLeastGain) best = Place{support, T};
+    }
   }
   return best;
 }

@@ -245,6 +245,7 @@ class RobustPipeline {
 
   // What the final poses contradict is named.
   void report_hypotheses() {
+    result_.set_log_odds = hypotheses_->reference().constant;
     for (const auto& [pair, found] : hypotheses_->pairs()) {
       const auto [a, b] = pair;
       const auto both = std::find_if(settled_.begin(), settled_.end(), [a = a, b = b](const SettledComponent& s) {

@@ -10,7 +10,6 @@
 #include "decision/link_decision.hpp"
 #include "inference/configuration.hpp"
 #include "inference/cuts.hpp"
-#include "links/link_likelihood.hpp"
 #include "links/measure_link.hpp"
 #include "links/verification_at.hpp"
 #include "merging/merged_cloud.hpp"
@@ -198,10 +197,8 @@ class Settling {
         return std::binary_search(weakest->moved.begin(), weakest->moved.end(), i);
       };
       if (moves(out_.pairs[k].first) == moves(out_.pairs[k].second)) continue;
-      const LinkMeasurements& link = link_measurements_[k];
-      const SetReference& set = hypotheses_.reference();
-      m.link_log_odds.push_back(set.constant + pose_log_odds(link_features(link, std::nullopt, set)));
-      m.free_space_across += link.free_space;
+      ++m.num_across;
+      m.free_space_across += link_measurements_[k].free_space;
     }
     if (!weakest->other_motion || weakest->other_support <= 0) return;
     const Eigen::Isometry3d& T = *out_.component.T_reference_scan[scan];

@@ -23,10 +23,10 @@ struct ScanMeasurements {
   std::size_t num_moved = 1;             ///< scans that would move with it
   /// Standard deviation of its points, rms, by the joint adjustment, in coarse voxels; none where that leaves it open.
   std::optional<double> sigma_in_voxels;
-  /// Of the pairs that overlap across the weakest hold, at the final poses: those of the scan, or of the group that
-  /// would move with it. What holds within the group says nothing of its place.
-  std::vector<double> link_log_odds;
-  FreeSpaceEvidence free_space_across;  ///< of the same pairs
+  /// Pairs that overlap across the weakest hold, at the final poses: those of the scan, or of the group that would move
+  /// with it. What holds within the group says nothing of its place.
+  std::size_t num_across = 0;
+  FreeSpaceEvidence free_space_across;  ///< of these pairs
 };
 
 /// What scans of a component usually show.
@@ -36,10 +36,10 @@ struct ComponentReference {
   static ComponentReference of(const std::vector<ScanMeasurements>& members);
 };
 
-inline constexpr std::array<std::string_view, 18> kDecisionFeatureNames{
+inline constexpr std::array<std::string_view, 14> kDecisionFeatureNames{
     "lead",         "log_lead",  "log_overlap", "log_inlier_share", "inliers_by_set", "residual_by_set",
     "weakest_left", "mean_left", "left_across", "across_unknown",   "violations",     "opposed",
-    "space_unseen", "best_link", "mean_link",   "contradicting",    "few_agree",      "sigma"};
+    "few_agree",    "sigma"};
 using DecisionFeatures = std::array<double, kDecisionFeatureNames.size()>;
 
 /// Finite, without a unit, within bounds.

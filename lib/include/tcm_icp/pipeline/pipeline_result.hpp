@@ -68,6 +68,7 @@ struct PipelineResult {
   std::vector<StageRecord> stages;
   double coarse_voxel_m = 0;  ///< [m] resolution scans were placed with
   double fine_voxel_m = 0;    ///< [m] resolution they were adjusted with
+  double set_log_odds = 0;    ///< constant in the log-odds of all hypotheses and links, learnt from the poses
 
   bool all_registered() const;
 };
