@@ -100,9 +100,13 @@ struct Estimates {
   std::size_t reference = 0;
 };
 
+bool is_same_file(const fs::path& a, const fs::path& b) { return a == b || a.filename() == b; }
+
 Estimates match(const Truth& truth, const PoseFile& file, const fs::path& path) {
   std::map<std::string, const ScanPose*> by_name;
-  for (const auto& scan : file.scans) by_name[fs::path(scan.file).filename()] = &scan;
+  for (const auto& scan : file.scans) by_name[scan.file] = &scan;
+  // Files of other programs name scans with their folders.
+  for (const auto& scan : file.scans) by_name.emplace(fs::path(scan.file).filename(), &scan);
   Estimates out;
   std::optional<std::size_t> reference;
   for (const auto& scan : truth.scans) {
@@ -111,7 +115,7 @@ Estimates match(const Truth& truth, const PoseFile& file, const fs::path& path) 
       throw InputError(path, "", "has no entry for " + scan.file, "give the poses of all scans of the truth");
     }
     const bool placed = at->second->status != ScanStatus::kUnregistered;
-    if (placed && scan.file == fs::path(file.reference).filename()) reference = out.poses.size();
+    if (placed && is_same_file(at->second->file, file.reference)) reference = out.poses.size();
     out.poses.push_back(placed ? std::optional(at->second->T_reference_scan) : std::nullopt);
   }
   if (!reference) {

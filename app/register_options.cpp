@@ -295,9 +295,9 @@ void print_register_help(std::ostream& out) {
   Choices choices(o.pipeline);
   std::string config;
   out << "Usage: tcm-icp register SCAN... --out DIR [OPTIONS]\n\n"
-         "Puts overlapping LiDAR scans (.ply .xyz .txt .asc .pts .csv), wherever each lies, into the frame of one of\n"
-         "them. DIR receives poses.json, transforms/, registered.ply, report.json and report.html. Lengths are in\n"
-         "the unit of the scans.\n\n"
+         "Puts overlapping LiDAR scans (PLY, LAS, PCD, PTX, PTS, text), wherever each lies, into the frame of one of\n"
+         "them. SCAN is a file, a folder, a pattern, or one scan of a file (hall.ptx#2). DIR receives poses.json,\n"
+         "transforms/, registered.ply, report.json and report.html. Lengths are in the unit of the scans.\n\n"
       << command_line_only(o, config) << '\n'
       << configurable(o, choices) << "\nExample: tcm-icp register datasets/town/*.ply --out out/town\n";
 }

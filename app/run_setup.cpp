@@ -5,18 +5,17 @@
 #include <thread>
 
 #include "tcm_icp/io/pose_io.hpp"
+#include "tcm_icp/io/scan_path.hpp"
 
 namespace tcm_icp::app {
 
-std::vector<std::filesystem::path> paths_of(const ScanSetOptions& options) {
-  return {options.scans.begin(), options.scans.end()};
+void report_left_out(const ScanInputs& inputs, const RunContext& context) {
+  for (const auto& file : inputs.left_out) context.warn("left out: " + file);
 }
 
 InitialPoses read_guess(const ScanSetOptions& options, const std::vector<std::filesystem::path>& paths) {
   if (options.initial_poses.empty()) return InitialPoses(paths.size());
-  std::vector<std::string> files;
-  for (const auto& p : paths) files.push_back(p.filename().string());
-  return read_initial_poses(options.initial_poses, files);
+  return read_initial_poses(options.initial_poses, scan_names(paths));
 }
 
 RunContext run_context(const ScanSetOptions& options, Console& console) {

@@ -9,11 +9,13 @@
 #include "console.hpp"
 #include "register_options.hpp"
 #include "tcm_icp/core/run_context.hpp"
+#include "tcm_icp/io/scan_inputs.hpp"
 #include "tcm_icp/pipeline/pipeline.hpp"
 
 namespace tcm_icp::app {
 
-std::vector<std::filesystem::path> paths_of(const ScanSetOptions& options);
+/// Warns of the files in folders that were left out.
+void report_left_out(const ScanInputs& inputs, const RunContext& context);
 
 /// The initial poses of --init; none where it is not given. @throws InputError
 InitialPoses read_guess(const ScanSetOptions& options, const std::vector<std::filesystem::path>& paths);

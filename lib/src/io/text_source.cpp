@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cctype>
-#include <charconv>
 #include <cstring>
 #include <utility>
 
+#include "attribute_names.hpp"
 #include "fields.hpp"
 #include "scalar.hpp"
 #include "tcm_icp/core/error.hpp"
@@ -36,19 +36,9 @@ std::string lower_case(std::string_view text) {
   return lower;
 }
 
-/// A name as a PLY property may have it: what is not a letter, digit or one of _.- becomes '_'.
-std::string attribute_name(std::string_view text) {
-  std::string name;
-  for (const char c : text) {
-    const bool keeps = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '.' || c == '-';
-    if (c != '"') name += keeps ? c : '_';
-  }
-  return name;
-}
-
 }  // namespace
 
-TextSource::TextSource(const std::filesystem::path& path) : input_(path) {
+TextSource::TextSource(InputBuffer input, CloudIs cloud) : input_(std::move(input)), cloud_(cloud) {
   const std::byte* const bom = input_.peek(3);
   if (bom && std::memcmp(bom, "\xEF\xBB\xBF", 3) == 0) input_.consume(3);
   read_start();
@@ -102,8 +92,7 @@ bool TextSource::take_header(std::string_view line) {
 /// A whole number alone on a line before the points is their count.
 bool TextSource::take_count(std::string_view line) {
   std::uint64_t count = 0;
-  const auto [rest, error] = std::from_chars(line.data(), line.data() + line.size(), count);
-  if (error != std::errc() || rest != line.data() + line.size()) return false;
+  if (!is_count_line(line, count)) return false;
   if (promised_) fail("is a second count line", "remove it");
   promised_ = count;
   return true;
@@ -133,13 +122,8 @@ void TextSource::name_attributes() {
   const std::size_t count = num_columns_ > 0 ? num_columns_ : header_.size();
   for (std::size_t column = 0; column < count; ++column) {
     if (std::find(axis_columns_.begin(), axis_columns_.end(), column) != axis_columns_.end()) continue;
-    const auto is_taken = [&](const std::string& name) {
-      return name.empty() || std::any_of(attributes_.begin(), attributes_.end(),
-                                         [&](const Attribute& attribute) { return attribute.name == name; });
-    };
-    std::string name = header_.empty() ? std::string() : header_[column];
-    if (is_taken(name)) name = "column_" + std::to_string(column + 1);
-    while (is_taken(name)) name += '_';
+    std::string name = unique_name(header_.empty() ? std::string() : header_[column],
+                                   "column_" + std::to_string(column + 1), attributes_);
     attributes_.push_back({std::move(name), ScalarType::kFloat64});
     attribute_columns_.push_back(column);
   }
@@ -151,6 +135,14 @@ bool TextSource::next_content_line(std::string_view& line) {
     if (!line.empty() && comment_prefix(line) == 0) return true;
   }
   return false;
+}
+
+/// Where all promised points are there, another count begins another cloud.
+bool TextSource::begins_next_cloud(std::string_view line) const {
+  std::uint64_t count = 0;
+  if (!promised_ || num_read_ != *promised_ || !is_count_line(line, count)) return false;
+  if (cloud_ == CloudIs::kAll) refuse_several(input_);
+  return true;
 }
 
 void TextSource::parse_record(std::string_view line) {
@@ -174,7 +166,8 @@ void TextSource::parse_record(std::string_view line) {
 bool TextSource::next(Eigen::Vector3d& point, std::byte* attributes) {
   if (!std::exchange(has_pending_, false)) {
     std::string_view line;
-    if (!next_content_line(line)) {
+    if (is_finished_ || !next_content_line(line) || begins_next_cloud(line)) {
+      is_finished_ = true;
       check_count();
       return false;
     }

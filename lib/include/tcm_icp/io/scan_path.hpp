@@ -1,0 +1,29 @@
+#pragma once
+// Names of scans: a file, or one of the scans in a file that holds several ("hall.e57#2").
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace tcm_icp {
+
+struct ScanPath {
+  std::filesystem::path file;
+  std::size_t number = 0;  ///< of the scan in the file, from 1; 0: the file is the scan
+};
+
+/// "hall.e57#2" is scan 2 of hall.e57, unless a file of that whole name is there.
+ScanPath parse_scan_path(const std::filesystem::path& path);
+
+/// The scans of a file: {file} where it holds one, else file#1, file#2, ... What names one scan stands for itself. PTX
+/// files, and text files that begin with a count, are read once to find out.
+/// @throws InputError  if the file cannot be read, is of no known format, or holds no scan
+std::vector<std::filesystem::path> scans_in(const std::filesystem::path& path);
+
+/// What results call the scans: the file names, and where two have the same, the end of the path from where on all
+/// of these differ ("Setup1/scan.ply"); always with '/'.
+/// @pre no path twice
+std::vector<std::string> scan_names(const std::vector<std::filesystem::path>& paths);
+
+}  // namespace tcm_icp
