@@ -115,7 +115,7 @@ int cmd_inspect(const Arguments& arguments) {
     return kSuccess;
   }
   if (o.scans.empty()) throw InvalidOptions("no scan is given; name the files: tcm-icp inspect SCAN...");
-  const ScanInputs inputs = find_scans(o.scans);
+  const ScanInputs inputs = find_scans(o.scans, parse_bin(o.bin));
   const auto& paths = inputs.scans;
   const InitialPoses guess = read_guess(o, paths);
 

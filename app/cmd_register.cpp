@@ -52,7 +52,7 @@ int cmd_register(const Arguments& arguments) {
   check_usage(o);
   if (o.method != Method::kTcm) check_built_in(o.method);
   const std::string started = time_now();
-  const ScanInputs inputs = find_scans(o.scans);
+  const ScanInputs inputs = find_scans(o.scans, parse_bin(o.bin));
   const auto& paths = inputs.scans;
   check_number(paths.size());
   check_output_folder(o.out, o.force);

@@ -4,17 +4,39 @@
 #include <ctime>
 #include <thread>
 
+#include "tcm_icp/core/error.hpp"
 #include "tcm_icp/io/pose_io.hpp"
 #include "tcm_icp/io/scan_path.hpp"
+#include "tcm_icp/io/scan_reader.hpp"
 
 namespace tcm_icp::app {
+
+BinLayout parse_bin(const std::string& text) {
+  if (text.empty()) return BinLayout::kNone;
+  if (text == "kitti") return BinLayout::kKitti;
+  if (text == "nuscenes") return BinLayout::kNuScenes;
+  throw InvalidOptions("--bin '" + text + "': choose one of kitti, nuscenes");
+}
 
 void report_left_out(const ScanInputs& inputs, const RunContext& context) {
   for (const auto& file : inputs.left_out) context.warn("left out: " + file);
 }
 
+namespace {
+
+InitialPoses poses_in_headers(const std::vector<std::filesystem::path>& paths) {
+  InitialPoses poses;
+  for (const auto& path : paths) poses.push_back(ScanReader(path, ReadAttributes::kNo).header_pose());
+  const bool has_any = std::any_of(poses.begin(), poses.end(), [](const auto& pose) { return pose.has_value(); });
+  if (has_any) return poses;
+  throw InvalidOptions("--init headers: no scan has a pose in its file; only PTX and E57 have them");
+}
+
+}  // namespace
+
 InitialPoses read_guess(const ScanSetOptions& options, const std::vector<std::filesystem::path>& paths) {
   if (options.initial_poses.empty()) return InitialPoses(paths.size());
+  if (options.initial_poses == kFromHeaders) return poses_in_headers(paths);
   return read_initial_poses(options.initial_poses, scan_names(paths));
 }
 

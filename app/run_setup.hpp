@@ -17,7 +17,17 @@ namespace tcm_icp::app {
 /// Warns of the files in folders that were left out.
 void report_left_out(const ScanInputs& inputs, const RunContext& context);
 
-/// The initial poses of --init; none where it is not given. @throws InputError
+/// The option --bin. @throws InvalidOptions
+BinLayout parse_bin(const std::string& text);
+
+constexpr const char* kBinHelp = "what .bin files are: kitti (x y z intensity) or nuscenes (x y z intensity ring)";
+
+/// What --init has in place of a file's name for the poses that scans have in their own files.
+constexpr std::string_view kFromHeaders = "headers";
+
+/// The initial poses of --init; none where it is not given.
+/// @throws InputError      they cannot be read
+/// @throws InvalidOptions  they are to come from the scans' files, and none has one
 InitialPoses read_guess(const ScanSetOptions& options, const std::vector<std::filesystem::path>& paths);
 
 /// Reports to the console, which must outlive it.

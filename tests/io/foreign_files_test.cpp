@@ -118,5 +118,24 @@ TEST_F(ForeignFiles, PtxAndPtsAreRead) {
   expect_refusal(file("PDAL+PDAL", "test__data__pts__bunny_8.pts"), "one point more");
 }
 
+// Boxes by a reader of its own in another language, points one by one.
+TEST_F(ForeignFiles, E57IsRead) {
+  const std::string names = "asmaloney+libE57Format-test-data";
+  const Eigen::Vector3d min(-0.094689, 0.040011, -0.061873), max(0.061009, 0.187321, 0.058799);
+  expect_scan(file(names, "reference__bunnyDouble.e57"), 30571, min, max);
+  expect_scan(file(names, "reference__bunnyInt32.e57"), 30571, min, max);
+  for (const char* const kind : {"ColouredCubeDouble", "ColouredCubeFloat"}) {
+    expect_scan(file(names, std::string("self__") + kind + ".e57"), 7680, {-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5});
+  }
+  expect_scan(file("davidcaron+pye57", "tests__test_data__pumpAVisualReferenceImage.e57"), 155201,
+              {-2.903763, -5.301102, -1.899704}, {1.721603, -0.792648, 1.843002});
+  const auto moved = file("davidcaron+pye57", "tests__test_data__translationWithoutRotation.e57");
+  EXPECT_EQ(ScanReader(moved).header_pose().value().translation(), Eigen::Vector3d(4, 5, 6));
+  EXPECT_EQ(scans_in(file("PDAL+PDAL", "test__data__e57__A_B.e57")).size(), 2u);
+  expect_refusal(file(names, "self__bad-crc.e57"), "check sum of this page is wrong");
+  expect_refusal(file(names, "self__empty.e57"), "holds no scan");
+  EXPECT_TRUE(test::read_whole(file(names, "self__ZeroPoints.e57")).block.points.empty());
+}
+
 }  // namespace
 }  // namespace tcm_icp

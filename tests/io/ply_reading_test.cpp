@@ -208,6 +208,12 @@ TEST(PlyReading, WhatIsWrongIsNamedWithItsPlace) {
   }
 }
 
+TEST(PlyReading, AByteOrderMarkIsPassedOver) {
+  const TempFolder folder;
+  const std::string ply = ply_header("ascii", xyz_vertices(1)) + "1 2 3\n";
+  EXPECT_EQ(read_whole(folder.write("a.ply", "\xEF\xBB\xBF" + ply)).block.points, Points({{1, 2, 3}}));
+}
+
 TEST(PlyReading, AHeaderWithoutEndIsNotReadToTheEndOfTheFile) {
   const TempFolder folder;
   std::string content = "ply\nformat ascii 1.0\nelement vertex 1\n";

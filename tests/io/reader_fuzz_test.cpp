@@ -123,7 +123,9 @@ std::string pcd(const std::string& data) {
   std::string packed;
   for (std::size_t at = 0; at < 160; at += 32) packed += "\x1F" + bytes.substr(at, 32);
   packed += std::string("\xE0\x97\x9F", 3);
-  return text + bytes_of(static_cast<std::uint32_t>(packed.size())) + bytes_of(320U) + packed;
+  text += bytes_of(static_cast<std::uint32_t>(packed.size()));
+  text += bytes_of(320U);
+  return text + packed;
 }
 
 TEST(ReaderFuzz, DamagedScansAreReadOrRefused) {

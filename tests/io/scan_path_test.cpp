@@ -76,6 +76,11 @@ TEST(ScanNames, TakeAsMuchOfThePathAsTellsEqualNamesApart) {
             Names({"day1/s/scan.ply", "day2/s/scan.ply", "day2/t/scan.ply"}));
 }
 
+TEST(ScanNames, DoNotSayHowAFileIsRead) {
+  EXPECT_EQ(scan_names({"a/000.bin#kitti", "a/001.bin#nuscenes"}), Names({"000.bin", "001.bin"}));
+  EXPECT_EQ(scan_names({"a/0.bin#kitti", "b/0.bin#kitti"}), Names({"a/0.bin", "b/0.bin"}));
+}
+
 TEST(ScanNames, HaveNoWayUpInThem) {
   const Names names = scan_names({"../scan.ply", "scan.ply", "./sub/../other/scan.ply"});
   for (const auto& name : names) EXPECT_EQ(name.find(".."), std::string::npos) << name;

@@ -2,7 +2,10 @@
 
 #include <string>
 #include <utility>
+#include <vector>
 
+#include "bin_source.hpp"
+#include "e57_source.hpp"
 #include "las_source.hpp"
 #include "pcd_source.hpp"
 #include "ply_source.hpp"
@@ -30,14 +33,30 @@ std::size_t index_of(const ScanPath& scan, std::size_t count) {
   return scan.number == 0 ? 0 : scan.number - 1;
 }
 
+/// @throws InputError  if there is none
+std::pair<E57Pages, std::vector<E57Scan>> e57_scans(const std::filesystem::path& file) {
+  E57Pages pages(file);
+  std::vector<E57Scan> scans = read_e57_scans(pages);
+  if (scans.empty()) throw InputError(file, "XML part", "holds no scan", "leave the file out");
+  return {std::move(pages), std::move(scans)};
+}
+
+std::unique_ptr<ScanSource> open_e57(const ScanPath& scan, ReadAttributes read_attributes) {
+  auto [pages, scans] = e57_scans(scan.file);
+  E57Scan chosen = std::move(scans[index_of(scan, scans.size())]);
+  return std::make_unique<E57Source>(std::move(pages), std::move(chosen), read_attributes);
+}
+
 bool has_clouds(ScanFormat format) { return format == ScanFormat::kPtx || format == ScanFormat::kText; }
 
 }  // namespace
 
-std::unique_ptr<ScanSource> open_scan(const std::filesystem::path& path, ReadAttributes) {
+std::unique_ptr<ScanSource> open_scan(const std::filesystem::path& path, ReadAttributes read_attributes) {
   const ScanPath scan = parse_scan_path(path);
   InputBuffer input(scan.file);
+  if (scan.bin != BinLayout::kNone) return std::make_unique<BinSource>(std::move(input), scan.bin);
   const ScanFormat format = format_of(input);
+  if (format == ScanFormat::kE57) return open_e57(scan, read_attributes);
   CloudIs cloud = CloudIs::kAll;
   if (scan.number > 0 && has_clouds(format)) {
     cloud = CloudIs::kOneOfSeveral;
@@ -67,6 +86,7 @@ std::size_t count_scans(const std::filesystem::path& file) {
     InputBuffer input(file);
     format = format_of(input);
   }
+  if (format == ScanFormat::kE57) return e57_scans(file).second.size();
   return has_clouds(format) ? find_clouds(file, format).size() : 1;
 }
 

@@ -79,6 +79,9 @@ ScanFormat format_of(InputBuffer& input) {
     if (extension != known) continue;
     return format == ScanFormat::kText && begins_like_ptx(head) ? ScanFormat::kPtx : format;
   }
+  if (extension == ".bin") {
+    throw InputError(input.path(), "", "may hold anything", "say what it is: --bin kitti or --bin nuscenes");
+  }
   throw InputError(input.path(), "",
                    "is of no known format: neither its first bytes nor its extension '" + extension + "' tell",
                    "scans are read from PLY, LAS, E57, PCD, PTX, PTS and text (.xyz .txt .asc .csv); convert it to one "

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <system_error>
 
+#include "scan_format.hpp"
 #include "tcm_icp/core/error.hpp"
-#include "tcm_icp/io/scan_path.hpp"
 #include "tcm_icp/io/scan_reader.hpp"
 
 namespace tcm_icp {
@@ -48,7 +48,7 @@ void append(std::vector<fs::path>& to, const std::vector<fs::path>& paths) {
   to.insert(to.end(), paths.begin(), paths.end());
 }
 
-void add_folder(const fs::path& folder, ScanInputs& inputs) {
+void add_folder(const fs::path& folder, BinLayout bin, ScanInputs& inputs) {
   std::vector<fs::path> files;
   try {
     list_files(folder, files);
@@ -59,7 +59,7 @@ void add_folder(const fs::path& folder, ScanInputs& inputs) {
   const std::size_t before = inputs.scans.size();
   for (const auto& file : files) {
     try {
-      const auto scans = scans_in(file);
+      const auto scans = scans_in(with_layout(file, bin));
       const ScanReader opened(scans.front(), ReadAttributes::kNo);  // notes.txt has the extension of a scan
       append(inputs.scans, scans);
     } catch (const InputError& e) {
@@ -85,13 +85,18 @@ std::vector<fs::path> matches_of(const std::string& pattern) {
   return paths;
 }
 
-void add_path(const fs::path& path, ScanInputs& inputs) {
+void add_path(const fs::path& path, BinLayout bin, ScanInputs& inputs) {
   std::error_code unreachable;  // then reading says why
-  if (fs::is_directory(path, unreachable)) return add_folder(path, inputs);
-  append(inputs.scans, scans_in(path));
+  if (fs::is_directory(path, unreachable)) return add_folder(path, bin, inputs);
+  append(inputs.scans, scans_in(with_layout(path, bin)));
 }
 
 }  // namespace
+
+fs::path with_layout(const fs::path& path, BinLayout bin) {
+  if (bin == BinLayout::kNone || extension_of(path) != ".bin") return path;
+  return path.string() + (bin == BinLayout::kKitti ? "#kitti" : "#nuscenes");
+}
 
 bool natural_less(std::string_view a, std::string_view b) {
   const std::string_view whole_a = a, whole_b = b;
@@ -110,14 +115,14 @@ bool natural_less(std::string_view a, std::string_view b) {
   return whole_a < whole_b;  // 01 and 1
 }
 
-ScanInputs find_scans(const std::vector<std::string>& inputs) {
+ScanInputs find_scans(const std::vector<std::string>& inputs, BinLayout bin) {
   ScanInputs found;
   for (const auto& input : inputs) {
     std::error_code ignored;
     if (has_wildcard(input) && !fs::exists(parse_scan_path(input).file, ignored)) {
-      for (const auto& path : matches_of(input)) add_path(path, found);
+      for (const auto& path : matches_of(input)) add_path(path, bin, found);
     } else {
-      add_path(input, found);
+      add_path(input, bin, found);
     }
   }
   return found;

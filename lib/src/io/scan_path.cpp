@@ -34,17 +34,20 @@ ScanPath parse_scan_path(const fs::path& path) {
   std::error_code ignored;
   const std::string text = path.string();
   const std::size_t mark = text.rfind('#');
-  if (mark == std::string::npos || fs::exists(path, ignored)) return {path, 0};
+  if (mark == std::string::npos || fs::exists(path, ignored)) return {path};
+  const std::string_view word = std::string_view(text).substr(mark + 1);
+  if (word == "kitti") return {text.substr(0, mark), 0, BinLayout::kKitti};
+  if (word == "nuscenes") return {text.substr(0, mark), 0, BinLayout::kNuScenes};
   std::size_t number = 0;
   const char* const end = text.data() + text.size();
   const auto [rest, error] = std::from_chars(text.data() + mark + 1, end, number);
-  if (error != std::errc() || rest != end || number == 0) return {path, 0};
-  return {text.substr(0, mark), number};
+  if (error != std::errc() || rest != end || number == 0) return {path};
+  return {text.substr(0, mark), number, BinLayout::kNone};
 }
 
 std::vector<fs::path> scans_in(const fs::path& path) {
   const ScanPath scan = parse_scan_path(path);
-  if (scan.number > 0) return {path};
+  if (scan.number > 0 || scan.bin != BinLayout::kNone) return {path};
   const std::size_t count = count_scans(scan.file);
   if (count == 1) return {path};
   std::vector<fs::path> scans;
@@ -52,26 +55,31 @@ std::vector<fs::path> scans_in(const fs::path& path) {
   return scans;
 }
 
-std::vector<std::string> scan_names(const std::vector<fs::path>& paths) {
+std::vector<std::string> scan_names(const std::vector<fs::path>& scans) {
   std::vector<std::string> names;
   std::map<std::string, std::vector<std::size_t>> by_name;
+  std::vector<fs::path> paths;
+  for (const auto& scan : scans) {
+    const ScanPath parsed = parse_scan_path(scan);
+    paths.push_back(parsed.bin == BinLayout::kNone ? scan : parsed.file);
+  }
   for (std::size_t i = 0; i < paths.size(); ++i) {
     names.push_back(paths[i].filename().string());
     by_name[names.back()].push_back(i);
   }
-  for (const auto& [name, scans] : by_name) {
+  for (const auto& [name, twins] : by_name) {
     std::map<std::string, std::size_t> longer;
-    for (std::size_t length = 2; scans.size() > 1 && longer.size() < scans.size(); ++length) {
+    for (std::size_t length = 2; twins.size() > 1 && longer.size() < twins.size(); ++length) {
       longer.clear();
       std::size_t longest = 0;
-      for (const std::size_t i : scans) {
+      for (const std::size_t i : twins) {
         const fs::path path = plain(paths[i]);
         longer.emplace(tail(path, length), i);
         longest = std::max<std::size_t>(longest, static_cast<std::size_t>(std::distance(path.begin(), path.end())));
       }
       if (length > longest) break;  // named twice: nothing tells them apart
     }
-    if (longer.size() == scans.size()) {
+    if (longer.size() == twins.size()) {
       for (const auto& [text, i] : longer) names[i] = text;
     }
   }

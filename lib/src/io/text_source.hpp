@@ -31,12 +31,17 @@ class TextSource : public ScanSource {
   bool next_content_line(std::string_view& line);
   bool begins_next_cloud(std::string_view line) const;
   void parse_record(std::string_view line);
+  std::optional<double> parse_field(std::string_view field);
+  void find_byte_colours();
+  void check_colours() const;
   void check_count() const;
   [[noreturn]] void fail(const std::string& problem, const std::string& remedy) const;
 
   InputBuffer input_;
   CloudIs cloud_;
   char delimiter_ = ' ';
+  char decimal_ = '\0';              ///< '.' or ',', once one has been seen
+  std::string number_;               ///< a field whose comma has become a point
   std::vector<std::string> header_;  ///< names of the columns; empty where the file has none
   bool header_is_comment_ = false;
   std::optional<std::uint64_t> promised_;  ///< points, by the count line
