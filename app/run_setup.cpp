@@ -19,7 +19,13 @@ BinLayout parse_bin(const std::string& text) {
 }
 
 void report_left_out(const ScanInputs& inputs, const RunContext& context) {
-  for (const auto& file : inputs.left_out) context.warn("left out: " + file);
+  constexpr std::size_t kMost = 5;  // a folder may hold a thousand photos
+  for (std::size_t i = 0; i < std::min(kMost, inputs.left_out.size()); ++i) {
+    context.warn("left out: " + inputs.left_out[i]);
+  }
+  if (inputs.left_out.size() > kMost) {
+    context.warn("left out: " + std::to_string(inputs.left_out.size() - kMost) + " more files");
+  }
 }
 
 namespace {

@@ -71,6 +71,21 @@ TEST(FindScans, AFolderGivesAllScansBelowItInNaturalOrder) {
   EXPECT_NE(left_out[1].find("photo.jpg"), std::string::npos);
 }
 
+TEST(FindScans, ADamagedScanInAFolderIsAnErrorAndNotLeftOut) {
+  const TempFolder folder;
+  folder.write("a.xyz", kPoints);
+  const auto message = [&](const std::string& name, const std::string& content) {
+    const auto path = folder.write(name, content);
+    const std::string text = error_of<InputError>([&] { find_scans({folder.path()}); });
+    std::filesystem::remove(path);
+    return text;
+  };
+  EXPECT_NE(message("b.ply", "ply\nformat ascii 1.0\n").find("b.ply: header line 2"), std::string::npos);
+  EXPECT_NE(message("b.xyz", "1 2\n").find("b.xyz: line 1"), std::string::npos);
+  EXPECT_NE(message("b.xyz", "").find("b.xyz: is empty"), std::string::npos);
+  EXPECT_NE(message("b.dat", "LASF").find("b.dat: header: ends within its header"), std::string::npos);
+}
+
 TEST(FindScans, APatternGivesWhatItMatches) {
   const TempFolder folder;
   for (const char* const name : {"scan10.xyz", "scan2.xyz", "other.xyz"}) folder.write(name, kPoints);

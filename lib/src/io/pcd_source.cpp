@@ -102,6 +102,7 @@ void PcdSource::add_colour(const PcdField& field, std::size_t word) {
 // The fields stand one behind the other, packed together. One pass finds where each begins; from there each is
 // unpacked on its own, so that a point can be put together without holding the file.
 void PcdSource::open_compressed() {
+  if (header_.num_points == 0) return;  // some write no sizes then
   const std::byte* const sizes = input_.peek(8);
   if (!sizes) fail_truncated();
   const std::uint64_t packed = load<std::uint32_t>(sizes), unpacked = load<std::uint32_t>(sizes + 4);

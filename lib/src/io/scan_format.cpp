@@ -88,4 +88,18 @@ ScanFormat format_of(InputBuffer& input) {
                    "of them");
 }
 
+bool is_surely_scan(const std::filesystem::path& file) {
+  try {
+    InputBuffer input(file);
+    if (format_of(input) != ScanFormat::kText) return true;
+  } catch (const InputError&) {
+    // empty, or of an unknown format: its name has the say
+  }
+  const std::string extension = extension_of(file);
+  for (const char* const scan : {".ply", ".las", ".laz", ".pcd", ".e57", ".ptx", ".pts", ".xyz"}) {
+    if (extension == scan) return true;
+  }
+  return false;
+}
+
 }  // namespace tcm_icp

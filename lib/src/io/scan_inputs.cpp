@@ -63,6 +63,7 @@ void add_folder(const fs::path& folder, BinLayout bin, ScanInputs& inputs) {
       const ScanReader opened(scans.front(), ReadAttributes::kNo);  // notes.txt has the extension of a scan
       append(inputs.scans, scans);
     } catch (const InputError& e) {
+      if (is_surely_scan(file)) throw;  // a scan must not get lost among the photos
       inputs.left_out.emplace_back(e.what());
     }
   }

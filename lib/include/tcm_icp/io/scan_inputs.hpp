@@ -19,7 +19,7 @@ struct ScanInputs {
 /// in natural order, without hidden files and results of this program; a pattern (* ? [) that is no file's name, what
 /// it matches, in natural order.
 /// @param bin  what files with the extension .bin are
-/// @throws InputError  a pattern or folder without a scan, a named file that is none
+/// @throws InputError  a pattern or folder without a scan, a named file that is none, a damaged scan in a folder
 ScanInputs find_scans(const std::vector<std::string>& inputs, BinLayout bin = BinLayout::kNone);
 
 /// A path by which ScanReader reads a file as `bin` says, where its extension is .bin; else the path as it is.
