@@ -62,6 +62,7 @@ int cmd_register(const Arguments& arguments) {
   Console console(o.quiet, o.verbose);
   const RunContext context = run_context(o, console);
   report_left_out(inputs, context);
+  report_coordinate_systems(paths, context);
 
   PipelineResult result = run_method(o, paths, guess, context);
   write_result(o.out, o.force, paths, result, o.pipeline, context,

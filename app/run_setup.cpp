@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <ctime>
+#include <map>
 #include <thread>
 
 #include "tcm_icp/core/error.hpp"
@@ -10,6 +11,24 @@
 #include "tcm_icp/io/scan_reader.hpp"
 
 namespace tcm_icp::app {
+
+void report_coordinate_systems(const std::vector<std::filesystem::path>& scans, const RunContext& context) {
+  constexpr std::size_t kMostShown = 60;                 // well-known text fills a page
+  std::map<std::string, std::filesystem::path> systems;  // each with the first scan in it
+  for (const auto& scan : scans) {
+    const std::string system = ScanReader(scan, ReadAttributes::kNo).coordinate_system();
+    if (!system.empty()) systems.emplace(system, scan);
+  }
+  for (const auto& [system, scan] : systems) {
+    const std::string shown = system.size() > kMostShown ? system.substr(0, kMostShown) + "..." : system;
+    const std::string text = scan.filename().string() + " is in the coordinate system " + shown;
+    if (systems.size() > 1) {
+      context.warn(text + "; others are in another: are all in one unit?");
+    } else {
+      context.info(text + ", which results do not keep");
+    }
+  }
+}
 
 BinLayout parse_bin(const std::string& text) {
   if (text.empty()) return BinLayout::kNone;

@@ -17,6 +17,9 @@ namespace tcm_icp::app {
 /// Warns of the files in folders that were left out.
 void report_left_out(const ScanInputs& inputs, const RunContext& context);
 
+/// Says that coordinate systems, which LAS and E57 files may name, are not kept, and warns where they differ.
+void report_coordinate_systems(const std::vector<std::filesystem::path>& scans, const RunContext& context);
+
 /// The option --bin. @throws InvalidOptions
 BinLayout parse_bin(const std::string& text);
 

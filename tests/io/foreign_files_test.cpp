@@ -75,6 +75,12 @@ TEST_F(ForeignFiles, LasIsRead) {
               {2014999.693, 6493999.930, 124.0741328});
 }
 
+TEST_F(ForeignFiles, CoordinateSystemsOfLasAreTold) {
+  EXPECT_EQ(ScanReader(file("PDAL+PDAL", "test__data__las__utm17.las")).coordinate_system(), "EPSG:32617");
+  EXPECT_EQ(ScanReader(file("PDAL+PDAL", "test__data__las__wontcompress3.las")).coordinate_system().substr(0, 29),
+            "PROJCS[\"NAD83 / UTM zone 19N\"");
+}
+
 TEST_F(ForeignFiles, EveryLasThatIsWholeIsRead) {
   int num_read = 0;
   for (const auto& entry : fs::recursive_directory_iterator(formats_folder())) {

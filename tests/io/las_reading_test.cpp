@@ -152,6 +152,28 @@ TEST(LasReading, ExtraBytesAreColumnsWhereTheyAreDescribed) {
   EXPECT_EQ(attribute_of<float>(scan, 0, "extra_3"), 2.5F) << "its own name is that of another column";
 }
 
+TEST(LasReading, TheCoordinateSystemIsTold) {
+  const TempFolder folder;
+  const auto system = [&](const std::vector<std::string>& records) {
+    LasParts parts = plain();
+    for (const auto& record : records) parts.records += record;
+    parts.num_records = static_cast<std::uint32_t>(records.size());
+    return ScanReader(folder.write("a.las", las_file(parts))).coordinate_system();
+  };
+  const auto keys = [](U16 key, U16 place, U16 value) {
+    return las_record(
+        "LASF_Projection", 34735,
+        joined(U16{1}, U16{1}, U16{0}, U16{2}, U16{1024}, U16{0}, U16{1}, U16{1}, key, place, U16{1}, value));
+  };
+  EXPECT_EQ(system({}), "");
+  EXPECT_EQ(system({keys(3072, 0, 26917)}), "EPSG:26917");
+  EXPECT_EQ(system({keys(2048, 0, 4326)}), "EPSG:4326");
+  EXPECT_EQ(system({keys(3072, 0, 32767)}), "") << "a system of its own";
+  EXPECT_EQ(system({keys(3072, 34736, 7)}), "") << "a place elsewhere";
+  EXPECT_EQ(system({keys(3072, 0, 26917), las_record("LASF_Projection", 2112, std::string("PROJCS[\"a\"]\0", 13))}),
+            "PROJCS[\"a\"]");
+}
+
 TEST(LasReading, WhatStandsBehindThePointsIsNotLookedAt) {
   const TempFolder folder;
   LasParts parts = plain();

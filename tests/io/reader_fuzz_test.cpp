@@ -110,18 +110,18 @@ std::string ptx() {
 
 std::string pcd(const std::string& data) {
   std::string text =
-      "VERSION .7\nFIELDS x y z rgb\nSIZE 4 4 4 4\nTYPE F F F U\nCOUNT 1 1 1 1\nWIDTH 20\nHEIGHT 1\nPOINTS 20\nDATA " +
-      data + "\n";
+      "VERSION .7\nFIELDS x y z rgb\nSIZE 4 4 4 4\nTYPE F F F U\nCOUNT 1 1 1 1\nWIDTH 20\nHEIGHT 1\nPOINTS 20\nDATA ";
+  text.append(data).append("\n");
   std::string bytes;
   for (int i = 0; i < 20; ++i) {
-    if (data == "ascii") text += std::to_string(i) + " 0.5 -3 70000\n";
-    bytes += bytes_of(static_cast<float>(i)) + bytes_of(0.5F) + bytes_of(0.F) + bytes_of(70000U);
+    if (data == "ascii") text.append(std::to_string(i)).append(" 0.5 -3 70000\n");
+    bytes += test::joined(static_cast<float>(i), 0.5F, 0.F, 70000U);
   }
   if (data == "ascii") return text;
   if (data == "binary") return text + bytes;
   // Packed: half as it is, half as copies of what stood 160 bytes before.
   std::string packed;
-  for (std::size_t at = 0; at < 160; at += 32) packed += "\x1F" + bytes.substr(at, 32);
+  for (std::size_t at = 0; at < 160; at += 32) packed.append("\x1F").append(bytes, at, 32);
   packed += std::string("\xE0\x97\x9F", 3);
   text += bytes_of(static_cast<std::uint32_t>(packed.size()));
   text += bytes_of(320U);

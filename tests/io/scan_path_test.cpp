@@ -54,6 +54,27 @@ TEST(ScansIn, AFileOfSeveralBecomesAllOfThem) {
   EXPECT_EQ(scans_in(scans[1]), Paths({scans[1]}));
 }
 
+TEST(ScansIn, CloudsFarBehindInAFileAreFound) {
+  const TempFolder folder;
+  std::string text;
+  constexpr int kCount = 200'000;  // longer than what is read ahead
+  for (int cloud = 1; cloud <= 3; ++cloud) {
+    text += std::to_string(kCount) + "\n";
+    for (int i = 0; i < kCount; ++i) text += std::to_string(cloud) + " 0.5 " + std::to_string(i) + "\n";
+  }
+  const auto path = folder.write("a.pts", text + "\n");
+  const auto scans = scans_in(path);
+  ASSERT_EQ(scans.size(), 3u);
+  const Points last = test::read_whole(scans[2]).block.points;
+  ASSERT_EQ(last.size(), static_cast<std::size_t>(kCount));
+  EXPECT_EQ(last.front(), Eigen::Vector3d(3, 0.5, 0));
+  EXPECT_EQ(last.back(), Eigen::Vector3d(3, 0.5, kCount - 1));
+  folder.write("a.pts", text + "1 x 3\n");  // one line more, and damaged
+  const auto damaged = scans_in(path).at(2);
+  EXPECT_NE(test::error_of<InputError>([&] { test::read_whole(damaged); }).find("line 600004"), std::string::npos)
+      << "lines are counted from the start of the file";
+}
+
 TEST(ScansIn, OneOfSeveralMustBeNamed) {
   const TempFolder folder;
   const auto path = folder.write("a.pts", kTwoClouds);

@@ -27,7 +27,10 @@ class Parser {
     const pugi::xml_node root = document.child("e57Root");
     if (!root) fail("has no element e57Root");
     std::vector<E57Scan> scans;
-    for (const pugi::xml_node node : root.child("data3D").children()) scans.push_back(scan_of(node));
+    for (const pugi::xml_node node : root.child("data3D").children()) {
+      scans.push_back(scan_of(node));
+      scans.back().coordinate_system = root.child("coordinateMetadata").child_value();
+    }
     return scans;
   }
 

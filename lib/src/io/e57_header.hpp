@@ -29,6 +29,7 @@ struct E57Scan {
   std::uint64_t points_offset = 0;  ///< [bytes] physical, of the section that holds them
   std::vector<E57Field> fields;
   std::optional<Eigen::Matrix4d> T_file_scan;  ///< where the file says it
+  std::string coordinate_system;               ///< of the file
   bool is_packed = false;                      ///< by another codec than the standard's own
 };
 

@@ -24,6 +24,7 @@ class E57Source : public ScanSource {
 
   const std::vector<Attribute>& attributes() const override { return attributes_; }
   bool next(Eigen::Vector3d& point, std::byte* attributes) override;
+  std::string coordinate_system() const override { return scan_.coordinate_system; }
   std::optional<Eigen::Matrix4d> header_pose() const override { return scan_.T_file_scan; }
 
  private:

@@ -13,6 +13,7 @@ namespace {
 constexpr std::size_t kShortestHeader = 227, kHeader14 = 375;
 constexpr std::array<std::size_t, 11> kPointSizes{20, 28, 26, 34, 57, 63, 30, 36, 38, 59, 67};
 constexpr std::size_t kVlrHeader = 54, kExtraEntry = 192;
+constexpr std::uint16_t kExtraBytes = 4, kWellKnownText = 2112, kGeoKeys = 34735;  // of records
 
 class Parser {
  public:
@@ -102,18 +103,41 @@ class Parser {
       if (!bytes) return;
       const std::string_view user(reinterpret_cast<const char*>(bytes + 2), 16);
       const auto id = load<std::uint16_t>(bytes + 18), length = load<std::uint16_t>(bytes + 20);
-      const bool is_extra = user.substr(0, user.find('\0')) == "LASF_Spec" && id == 4;
+      const std::string_view name = user.substr(0, user.find('\0'));
+      const bool is_extra = name == "LASF_Spec" && id == kExtraBytes;
+      const bool is_system = name == "LASF_Projection" && (id == kWellKnownText || id == kGeoKeys);
       if (first_point_ - input_.offset() - kVlrHeader < length) return;
       input_.consume(kVlrHeader);
-      if (!is_extra) {
+      if (!is_extra && !is_system) {
         if (!input_.skip(length)) return;
         continue;
       }
-      const std::byte* const entries = input_.peek(length);
-      if (!entries) return;
-      for (std::size_t at = 0; at + kExtraEntry <= length; at += kExtraEntry) add_extra(entries + at);
+      const std::byte* const content = input_.peek(length);
+      if (!content) return;
+      if (is_extra) {
+        for (std::size_t at = 0; at + kExtraEntry <= length; at += kExtraEntry) add_extra(content + at);
+      } else if (id == kWellKnownText) {
+        const std::string_view text(reinterpret_cast<const char*>(content), length);
+        header_.coordinate_system = text.substr(0, text.find('\0'));
+      } else if (header_.coordinate_system.empty()) {
+        header_.coordinate_system = epsg_code(content, length);
+      }
       input_.consume(length);
     }
+  }
+
+  /// "EPSG:26917" of a GeoTIFF key directory: its projected system, else its geographic one; empty where both are its
+  /// own.
+  static std::string epsg_code(const std::byte* keys, std::size_t length) {
+    constexpr std::uint16_t kProjected = 3072, kGeographic = 2048, kOwn = 32767;
+    std::uint16_t code = 0;
+    for (std::size_t at = 8; at + 8 <= length; at += 8) {  // behind a head of the same size: key, place, count, value
+      const auto key = load<std::uint16_t>(keys + at), place = load<std::uint16_t>(keys + at + 2);
+      const auto value = load<std::uint16_t>(keys + at + 6);
+      if (place != 0 || value == 0 || value == kOwn) continue;
+      if (key == kProjected || (key == kGeographic && code == 0)) code = value;
+    }
+    return code == 0 ? std::string() : "EPSG:" + std::to_string(code);
   }
 
   void add_extra(const std::byte* entry) {

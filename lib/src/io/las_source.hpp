@@ -2,6 +2,7 @@
 // The points of a LAS file, one after the other.
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "input_buffer.hpp"
@@ -16,6 +17,7 @@ class LasSource : public ScanSource {
 
   const std::vector<Attribute>& attributes() const override { return attributes_; }
   bool next(Eigen::Vector3d& point, std::byte* attributes) override;
+  std::string coordinate_system() const override { return header_.coordinate_system; }
 
  private:
   /// How an attribute comes out of a record.

@@ -47,6 +47,8 @@ std::optional<Eigen::Isometry3d> ScanReader::header_pose() const {
   return pose;
 }
 
+std::string ScanReader::coordinate_system() const { return impl_->source->coordinate_system(); }
+
 bool ScanReader::read(PointBlock& block, std::size_t max_points) {
   if (max_points == 0) throw InvalidOptions("max_points = 0: a block holds at least one point");
   const std::size_t stride = impl_->stride;

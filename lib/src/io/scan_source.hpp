@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "tcm_icp/io/point_block.hpp"
@@ -24,6 +25,9 @@ class ScanSource {
   /// What the file says of the scan's place: maps its coordinates into a frame common to the scans of the file. As it
   /// stands there, rigid or not.
   virtual std::optional<Eigen::Matrix4d> header_pose() const { return std::nullopt; }
+
+  /// What the file says of the coordinate system its points are in; empty where it says nothing.
+  virtual std::string coordinate_system() const { return {}; }
 };
 
 }  // namespace tcm_icp

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "tcm_icp/io/point_block.hpp"
@@ -47,6 +48,10 @@ class ScanReader {
   /// any point. nullopt where the format has none, or the file does not say.
   /// @throws InputError  if it is not rigid to 1e-3
   std::optional<Eigen::Isometry3d> header_pose() const;
+
+  /// What the file says of the coordinate system its points are in (LAS, E57): "EPSG:26917", well-known text, or what
+  /// else stands there. Results do not keep it. Empty where the file says nothing.
+  std::string coordinate_system() const;
 
  private:
   struct Impl;
