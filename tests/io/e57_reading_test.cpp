@@ -174,6 +174,15 @@ TEST(E57Reading, WhatIsWrongIsTold) {
   scan.columns[0].type = integers("five", "6");
   EXPECT_NE(message(e57_file({scan})).find("'five' in place of a whole number"), std::string::npos);
   scan = two_points();
+  std::string nested;
+  for (int i = 0; i < 100'000; ++i) nested += "<a type=\"Structure\">";  // each level of which takes stack
+  for (int i = 0; i < 100'000; ++i) nested += "</a>";
+  scan.columns.push_back({"a", "type=\"Structure\">" + nested + "</a><a type=\"String\"", ""});
+  EXPECT_NE(message(e57_file({scan})).find("too deep"), std::string::npos);
+  scan = two_points();
+  scan.columns.resize(5000, {"a", kSingle, ""});
+  EXPECT_NE(message(e57_file({scan})).find("more columns of points than"), std::string::npos);
+  scan = two_points();
   scan.pose = "<pose><rotation><w>2</w></rotation></pose>";
   const ScanReader reader(folder.write("c.e57", e57_file({scan})));
   EXPECT_NE(error_of<InputError>([&] { (void)reader.header_pose(); }).find("not a rigid motion"), std::string::npos);

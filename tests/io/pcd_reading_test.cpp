@@ -139,6 +139,8 @@ TEST(PcdReading, WhatIsWrongIsNamedWithItsPlace) {
   // A count that would need more memory than there is
   EXPECT_NE(message(header("x y z", "4 4 4", "F F F", "1 1 1", 1'000'000'000'000, "binary")).find("has room for 0"),
             std::string::npos);
+  EXPECT_NE(message(header("x y z d", "4 4 4 4", "F F F F", "1 1 1 5000", 1, "binary")).find("more than 4096 numbers"),
+            std::string::npos);
   EXPECT_NE(message(header("x y z", "4 4 4", "F F F", "1 1 99999999", 1, "binary")).find("more than 1 MiB"),
             std::string::npos);
 }

@@ -187,6 +187,14 @@ TEST(TextReading, PtsColumnsHaveTheirUsualNames) {
   EXPECT_EQ(read_whole(folder.write("c.pts", "1 2 3 10 20\n")).attributes.at(0).name, "column_4");
 }
 
+TEST(TextReading, AMillionColumnsAreNoPoint) {
+  const TempFolder folder;
+  std::string line;
+  for (int i = 0; i < 500'000; ++i) line += "1 ";
+  const auto path = folder.write("a.xyz", line + "\n");
+  EXPECT_NE(error_of<InputError>([&] { read_whole(path); }).find("has 500000 columns"), std::string::npos);
+}
+
 TEST(TextReading, ALineWithoutEndIsRefused) {
   const TempFolder folder;
   const auto one_line = folder.write("a.xyz", std::string(5u << 20, '1'));

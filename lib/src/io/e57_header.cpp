@@ -93,13 +93,17 @@ class Parser {
     return T;
   }
 
-  void add_fields(const pugi::xml_node& prototype, std::vector<E57Field>& fields) const {
+  void add_fields(const pugi::xml_node& prototype, std::vector<E57Field>& fields, int depth = 0) const {
+    constexpr std::size_t kMostFields = 4096;  // a packet has room for a few more
+    constexpr int kDeepest = 16;               // nobody nests columns at all
     for (const pugi::xml_node node : prototype.children()) {
       const std::string_view type = node.attribute("type").value();
       if (type == "Structure" || type == "Vector") {
-        add_fields(node, fields);
+        if (depth == kDeepest) fail("nests the columns of points too deep");
+        add_fields(node, fields, depth + 1);
         continue;
       }
+      if (fields.size() == kMostFields) fail("has more columns of points than a packet can hold");
       E57Field field;
       field.name = node.name();
       if (type == "Float") {

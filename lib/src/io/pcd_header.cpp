@@ -13,6 +13,7 @@ namespace tcm_icp {
 namespace {
 
 constexpr std::size_t kMaxPointSize = InputBuffer::kMaxLine;  // [bytes] what one look at the buffer can show
+constexpr std::size_t kMostNumbers = 4096;                    // of a point; the longest descriptors have some 2000
 
 class Parser {
  public:
@@ -129,6 +130,8 @@ class Parser {
     }
     field.offset = header_.point_size;
     header_.point_size += size * field.count;
+    if (field.name != "_") num_numbers_ += field.count;
+    if (num_numbers_ > kMostNumbers) fail("ends a header whose points have more than 4096 numbers each");
   }
 
   void set_number() {
@@ -146,6 +149,7 @@ class Parser {
   PcdHeader header_;
   std::vector<std::string_view> words_;
   std::optional<std::uint64_t> width_, height_, points_;
+  std::size_t num_numbers_ = 0;  ///< of a point, without padding
   bool has_fields_ = false, has_sizes_ = false, has_kinds_ = false;
 };
 

@@ -92,6 +92,10 @@ void TextSource::take_first_record(std::string_view line) {
     fail("has " + std::to_string(fields_.size()) + " columns, but a point has x, y and z",
          "separate columns by blanks, tabs, commas or semicolons");
   }
+  constexpr std::size_t kMostColumns = 4096;
+  if (fields_.size() > kMostColumns) {
+    fail("has " + std::to_string(fields_.size()) + " columns; at most 4096 are read", "this may be no list of points");
+  }
   if (header_is_comment_ && header_.size() != fields_.size()) {  // "# x y z are in metres" is no header after all
     header_.clear();
     axis_columns_ = {0, 1, 2};
