@@ -27,7 +27,7 @@ bool BinSource::next(Eigen::Vector3d& point, std::byte* attributes) {
     if (input_.head(1).empty()) return false;
     throw InputError(input_.path(), input_.byte_place(), "ends within a point", "copy the file again");
   }
-  for (int axis = 0; axis < 3; ++axis) point[axis] = load<float>(record + 4 * axis);
+  for (std::ptrdiff_t axis = 0; axis < 3; ++axis) point[axis] = load<float>(record + 4 * axis);
   if (attributes) std::memcpy(attributes, record + 12, record_size_ - 12);
   input_.consume(record_size_);
   return true;

@@ -38,7 +38,7 @@ class Parser {
     if (first_point_ < header_size_) fail("byte 96", "has its points within its header");
     read_point_layout(bytes);
     header_.num_points = load<std::uint32_t>(bytes + 107);
-    for (int axis = 0; axis < 3; ++axis) {
+    for (std::ptrdiff_t axis = 0; axis < 3; ++axis) {
       header_.scale[axis] = load<double>(bytes + 131 + 8 * axis);
       header_.offset[axis] = load<double>(bytes + 155 + 8 * axis);
     }
@@ -151,7 +151,7 @@ class Parser {
       return;
     }
     const int count = (type - 1) / 10 + 1;  // 11..20 are two, 21..30 three numbers of the types 1..10
-    for (int i = 0; i < count && type <= 30; ++i) {
+    for (std::ptrdiff_t i = 0; i < count && type <= 30; ++i) {
       LasExtra extra;
       extra.name = name;
       if (count > 1) extra.name.append("_").append(std::to_string(i));

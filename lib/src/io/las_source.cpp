@@ -123,7 +123,7 @@ bool LasSource::next(Eigen::Vector3d& point, std::byte* attributes) {
         "ends after " + std::to_string(num_read_) + " of " + std::to_string(header_.num_points) + " points",
         "the file is damaged: write or copy it again");
   }
-  for (int axis = 0; axis < 3; ++axis) {
+  for (std::ptrdiff_t axis = 0; axis < 3; ++axis) {
     point[axis] = header_.scale[axis] * load<std::int32_t>(record + 4 * axis) + header_.offset[axis];
   }
   if (attributes) fill(record, attributes);

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <system_error>
+#include <tuple>
 #include <utility>
 
 #include "fields.hpp"
@@ -19,7 +20,9 @@ struct FileState {
   std::filesystem::path path;
   std::uintmax_t size = 0;
   std::filesystem::file_time_type changed;
-  auto operator<=>(const FileState&) const = default;
+  bool operator<(const FileState& other) const {
+    return std::tie(path, size, changed) < std::tie(other.path, other.size, other.changed);
+  }
 };
 
 FileState state_of(const std::filesystem::path& path) {

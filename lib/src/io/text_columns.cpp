@@ -31,6 +31,7 @@ std::size_t position(const std::vector<std::string>& words, const std::vector<st
 
 std::optional<std::array<std::size_t, 3>> find_axes(const std::vector<std::string_view>& names) {
   std::vector<std::string> words;
+  words.reserve(names.size());
   for (const auto name : names) words.push_back(plain_word(name));
   constexpr std::array<std::string_view, 3> kAxes{"x", "y", "z"};
   std::array<std::size_t, 3> columns{}, letters{};
