@@ -15,6 +15,8 @@
 #include "tcm_icp/core/error.hpp"
 #include "tcm_icp/evaluation/degradation.hpp"
 #include "tcm_icp/io/output_folder.hpp"
+#include "tcm_icp/io/scan_inputs.hpp"
+#include "tcm_icp/io/scan_path.hpp"
 #include "tcm_icp/io/scan_reader.hpp"
 #include "tcm_icp/io/scan_writer.hpp"
 
@@ -26,7 +28,7 @@ namespace po = boost::program_options;
 
 struct Request {
   std::vector<std::string> scans;
-  std::string out;
+  std::string out, bin;
   DegradationOptions options;
   RunContext context;
 };
@@ -46,6 +48,7 @@ po::options_description describe(Request& r) {
   po::options_description run("Run", 110);
   run.add_options()("out", po::value(&r.out)->required(),
                     "folder to make: the scans under their names, degraded.json")             //
+      ("bin", po::value(&r.bin), kBinHelp)                                                    //
       ("force", "replace an earlier result in that folder")                                   //
       ("seed", bind_option(&r.context.seed), "the same seed gives the same bytes")            //
       ("threads", bind_option(&r.context.num_threads), "changes the time, never the result")  //
@@ -59,15 +62,20 @@ po::options_description with_scans(Request& r, const po::options_description& vi
   return all;
 }
 
-void check_scans(const std::vector<std::string>& scans) {
-  if (scans.empty()) throw InvalidOptions("no scan is named: tcm-icp degrade SCAN... --out DIR --noise 0.1");
+ScanInputs find_and_check(const std::vector<std::string>& named, BinLayout bin) {
+  if (named.empty()) throw InvalidOptions("no scan is named: tcm-icp degrade SCAN... --out DIR --noise 0.1");
+  ScanInputs inputs = find_scans(named, bin);
   std::set<std::string> names;
-  for (const auto& scan : scans) {
-    if (!names.insert(fs::path(scan).filename()).second)
-      throw InvalidInput(scan + ": another scan has the same file name, and results go by it; rename one");
-    const ScanReader opened(scan, ReadAttributes::kYes);  // a missing last file should not cost the work on all others
+  for (const auto& name : scan_names(inputs.scans)) {
+    if (!names.insert(name).second) throw InvalidInput(name + ": named twice; name each scan once");
   }
+  // A missing last file should not cost the work on all others.
+  for (const auto& scan : inputs.scans) const ScanReader opened(scan, ReadAttributes::kYes);
+  return inputs;
 }
+
+/// PLY and text keep their format and name; what cannot be written becomes PLY.
+std::string written_name(const std::string& name) { return can_write_scan(name) ? name : name + ".ply"; }
 
 struct WholeScan {
   PointBlock block;
@@ -98,17 +106,17 @@ PointBlock with_attributes(DegradedCloud&& cloud, const WholeScan& scan) {
 }
 
 /// Degrades one file and writes it; what was done.
-DegradedFile degrade_file(const fs::path& path, const fs::path& to, const Request& request) {
+DegradedFile degrade_file(const fs::path& path, const std::string& name, const fs::path& to, const Request& request) {
   const WholeScan scan = read_whole(path);
   DegradedCloud cloud;
   try {
-    cloud = degrade(scan.block.points, request.options, request.context.seed, path.filename().string(),
-                    request.context.num_threads);
+    cloud = degrade(scan.block.points, request.options, request.context.seed, name, request.context.num_threads);
   } catch (const InvalidInput& e) {
     throw InputError(path, "", e.what(), "");
   }
-  DegradedFile file{path.filename(), scan.block.size(), cloud.points.size(), cloud.steps};
-  write_scan(to / path.filename(), with_attributes(std::move(cloud), scan), scan.attributes);
+  DegradedFile file{written_name(name), scan.block.size(), cloud.points.size(), cloud.steps};
+  fs::create_directories((to / file.name).parent_path());
+  write_scan(to / file.name, with_attributes(std::move(cloud), scan), scan.attributes);
   return file;
 }
 
@@ -128,7 +136,8 @@ int cmd_degrade(const Arguments& arguments) {
         << "Usage: tcm-icp degrade SCAN... --out DIR [--noise P] [--isolated P] [--occlusion P] [--remove P] [--blur "
            "P] ...\n"
            "Copies of scans with defects put in, in this order: occlusion, removal, noise, blurring, isolated points.\n"
-           "Formats, names and attributes stay; a point that was added has 0 for every attribute, noise moves no "
+           "Names and attributes stay, and so do PLY and text; other formats become PLY (.ply behind the name); a "
+           "point that was added has 0 for every attribute, noise moves no "
            "normals.\n\n"
         << visible;
     return kSuccess;
@@ -137,15 +146,18 @@ int cmd_degrade(const Arguments& arguments) {
   request.options.validate();
   if (request.context.num_threads < 1)
     throw InvalidOptions("--threads = " + std::to_string(request.context.num_threads) + "; needs >= 1");
-  check_scans(request.scans);
+  const ScanInputs inputs = find_and_check(request.scans, parse_bin(request.bin));
+  const std::vector<std::string> names = scan_names(inputs.scans);
   catch_interrupts();
   Console console(/*quiet=*/false, /*verbose=*/false);
+  request.context.log = [&](LogLevel level, std::string_view message) { console.log(level, message); };
+  report_left_out(inputs, request.context);
   request.context.on_progress = [&](const Progress& p) { return console.progress(p); };
   OutputFolder folder(request.out, given.count("force") > 0, "degraded.json");
   DegradationReport report{command_line("degrade", arguments), request.context.seed, {}};
-  for (std::size_t i = 0; i < request.scans.size(); ++i) {
-    request.context.report("degrade", i, request.scans.size());
-    report.files.push_back(degrade_file(request.scans[i], folder.work(), request));
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    request.context.report("degrade", i, names.size());
+    report.files.push_back(degrade_file(inputs.scans[i], names[i], folder.work(), request));
   }
   write_degradation(report, folder.work() / "degraded.json");
   folder.commit();

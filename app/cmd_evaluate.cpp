@@ -8,6 +8,7 @@
 #include "command.hpp"
 #include "evaluation_report.hpp"
 #include "option_binding.hpp"
+#include "run_setup.hpp"
 #include "tcm_icp/core/error.hpp"
 #include "tcm_icp/io/pose_io.hpp"
 #include "tcm_icp/io/scan_reader.hpp"
@@ -19,7 +20,7 @@ namespace fs = std::filesystem;
 namespace po = boost::program_options;
 
 struct Request {
-  std::string scans, poses, truth, json;
+  std::string scans, poses, truth, json, bin;
   ScoreOptions options;
   std::size_t rms_points = 50000;
   std::size_t cloud_points = 200000;
@@ -33,6 +34,7 @@ po::options_description describe(Request& r) {
   what.add_options()("scans", po::value(&r.scans)->required(), "folder of the scans the poses belong to")  //
       ("poses", po::value(&r.poses)->required(), "poses.json of 'tcm-icp register'")                       //
       ("truth", po::value(&r.truth)->required(), "truth.json of the scene")                                //
+      ("bin", po::value(&r.bin), kBinHelp)                                                                 //
       ("json", po::value(&r.json), "write the figures here as well")                                       //
       ("min-overlap", bind_option(&r.options.min_overlap),
        "true overlap (0..1) from which a pair counts for registration recall")  //
@@ -100,9 +102,13 @@ struct Estimates {
   std::size_t reference = 0;
 };
 
+bool is_same_file(const fs::path& a, const fs::path& b) { return a == b || a.filename() == b; }
+
 Estimates match(const Truth& truth, const PoseFile& file, const fs::path& path) {
   std::map<std::string, const ScanPose*> by_name;
-  for (const auto& scan : file.scans) by_name[fs::path(scan.file).filename()] = &scan;
+  for (const auto& scan : file.scans) by_name[scan.file] = &scan;
+  // Files of other programs name scans with their folders.
+  for (const auto& scan : file.scans) by_name.emplace(fs::path(scan.file).filename(), &scan);
   Estimates out;
   std::optional<std::size_t> reference;
   for (const auto& scan : truth.scans) {
@@ -111,7 +117,7 @@ Estimates match(const Truth& truth, const PoseFile& file, const fs::path& path) 
       throw InputError(path, "", "has no entry for " + scan.file, "give the poses of all scans of the truth");
     }
     const bool placed = at->second->status != ScanStatus::kUnregistered;
-    if (placed && scan.file == fs::path(file.reference).filename()) reference = out.poses.size();
+    if (placed && is_same_file(at->second->file, file.reference)) reference = out.poses.size();
     out.poses.push_back(placed ? std::optional(at->second->T_reference_scan) : std::nullopt);
   }
   if (!reference) {
@@ -121,6 +127,10 @@ Estimates match(const Truth& truth, const PoseFile& file, const fs::path& path) 
   return out;
 }
 
+fs::path path_of(const Request& r, const std::string& file) {
+  return with_layout(fs::path(r.scans) / file, parse_bin(r.bin));
+}
+
 Evaluation evaluate(const Request& r, const po::variables_map& given) {
   Evaluation out;
   out.truth = read_truth(r.truth);
@@ -128,13 +138,13 @@ Evaluation evaluate(const Request& r, const po::variables_map& given) {
   if (given.count("max-rmse") > 0) out.truth.tolerance.rmse_m = r.max_rmse;
   const Estimates estimates = match(out.truth, read_pose_file(r.poses), r.poses);
   std::vector<std::uint64_t> counts;
-  for (const auto& scan : out.truth.scans) counts.push_back(count_points(fs::path(r.scans) / scan.file));
+  for (const auto& scan : out.truth.scans) counts.push_back(count_points(path_of(r, scan.file)));
   const auto shares = share_out(std::max(r.cloud_points, r.rms_points), counts);
   std::vector<Points> thinned, drawn;
   for (std::size_t i = 0; i < counts.size(); ++i) {
     const std::string& file = out.truth.scans[i].file;
     Rng rng = make_stream(r.seed, "evaluate", file);
-    Samples samples = sample(fs::path(r.scans) / file, counts[i], shares[i], rng);
+    Samples samples = sample(path_of(r, file), counts[i], shares[i], rng);
     thinned.push_back(std::move(samples.thinned));
     drawn.push_back(std::move(samples.drawn));
   }

@@ -115,12 +115,15 @@ int cmd_inspect(const Arguments& arguments) {
     return kSuccess;
   }
   if (o.scans.empty()) throw InvalidOptions("no scan is given; name the files: tcm-icp inspect SCAN...");
-  const auto paths = paths_of(o);
+  const ScanInputs inputs = find_scans(o.scans, parse_bin(o.bin));
+  const auto& paths = inputs.scans;
   const InitialPoses guess = read_guess(o, paths);
 
   catch_interrupts();
   Console console(o.quiet, o.verbose);
   const RunContext context = run_context(o, console);
+  report_left_out(inputs, context);
+  report_coordinate_systems(paths, context);
   const Inspection inspection = inspect_scans(paths, guess, o.pipeline, context);
   console.finish();
   if (o.json) {

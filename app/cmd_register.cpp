@@ -17,11 +17,14 @@
 namespace tcm_icp::app {
 namespace {
 
+void check_number(std::size_t num_scans) {
+  if (num_scans >= 2) return;
+  throw InvalidOptions("registration needs at least two scans, not " + std::to_string(num_scans) +
+                       "; name the files: tcm-icp register SCAN... --out DIR");
+}
+
 void check_usage(const RegisterOptions& o) {
-  if (o.scans.size() < 2) {
-    throw InvalidOptions("registration needs at least two scans, not " + std::to_string(o.scans.size()) +
-                         "; name the files: tcm-icp register SCAN... --out DIR");
-  }
+  if (o.scans.empty()) check_number(0);
   if (o.method == Method::kFeatures && !o.initial_poses.empty()) {
     throw InvalidOptions("--init: --method features finds its poses by itself; leave --init out, or use --method icp");
   }
@@ -49,13 +52,17 @@ int cmd_register(const Arguments& arguments) {
   check_usage(o);
   if (o.method != Method::kTcm) check_built_in(o.method);
   const std::string started = time_now();
-  const auto paths = paths_of(o);
+  const ScanInputs inputs = find_scans(o.scans, parse_bin(o.bin));
+  const auto& paths = inputs.scans;
+  check_number(paths.size());
   check_output_folder(o.out, o.force);
   const InitialPoses guess = read_guess(o, paths);
 
   catch_interrupts();
   Console console(o.quiet, o.verbose);
   const RunContext context = run_context(o, console);
+  report_left_out(inputs, context);
+  report_coordinate_systems(paths, context);
 
   PipelineResult result = run_method(o, paths, guess, context);
   write_result(o.out, o.force, paths, result, o.pipeline, context,

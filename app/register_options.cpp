@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "option_binding.hpp"
+#include "run_setup.hpp"
 #include "tcm_icp/core/error.hpp"
 
 namespace tcm_icp::app {
@@ -99,7 +100,8 @@ auto* value(T& target) {
 void add_comparison_options(ScanSetOptions& o, Choices& c, po::options_description& to) {
   to.add_options()("profile", value(c.profile), "robust: past the paper, verified; paper: to the letter")(
       "init", value(o.initial_poses),
-      "file of initial poses, where there are any, as poses.json or truth.json has them")(
+      "file of initial poses, where there are any, as poses.json or truth.json has them; headers: those in the "
+      "headers of PTX and E57 scans, as of one common frame")("bin", value(o.bin), kBinHelp)(
       "graph-threshold", value(o.pipeline.graph_threshold),
       "correspondence measure below which two scans are connected, at initial poses; 0: from the data")(
       "seed", value(o.seed), "seed of all random numbers")(
@@ -295,9 +297,10 @@ void print_register_help(std::ostream& out) {
   Choices choices(o.pipeline);
   std::string config;
   out << "Usage: tcm-icp register SCAN... --out DIR [OPTIONS]\n\n"
-         "Puts overlapping LiDAR scans (.ply .xyz .txt .asc .pts .csv), wherever each lies, into the frame of one of\n"
-         "them. DIR receives poses.json, transforms/, registered.ply, report.json and report.html. Lengths are in\n"
-         "the unit of the scans.\n\n"
+         "Puts overlapping LiDAR scans (PLY, LAS, E57, PCD, PTX, PTS, text), wherever each lies, into the frame of\n"
+         "one of them. SCAN is a file, a folder, a pattern, or one scan of a file (hall.ptx#2). DIR receives "
+         "poses.json,\n"
+         "transforms/, registered.ply, report.json and report.html. Lengths are in the unit of the scans.\n\n"
       << command_line_only(o, config) << '\n'
       << configurable(o, choices) << "\nExample: tcm-icp register datasets/town/*.ply --out out/town\n";
 }

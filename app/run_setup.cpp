@@ -2,21 +2,67 @@
 
 #include <algorithm>
 #include <ctime>
+#include <map>
 #include <thread>
 
+#include "tcm_icp/core/error.hpp"
 #include "tcm_icp/io/pose_io.hpp"
+#include "tcm_icp/io/scan_path.hpp"
+#include "tcm_icp/io/scan_reader.hpp"
 
 namespace tcm_icp::app {
 
-std::vector<std::filesystem::path> paths_of(const ScanSetOptions& options) {
-  return {options.scans.begin(), options.scans.end()};
+void report_coordinate_systems(const std::vector<std::filesystem::path>& scans, const RunContext& context) {
+  constexpr std::size_t kMostShown = 60;                 // well-known text fills a page
+  std::map<std::string, std::filesystem::path> systems;  // each with the first scan in it
+  for (const auto& scan : scans) {
+    const std::string system = ScanReader(scan, ReadAttributes::kNo).coordinate_system();
+    if (!system.empty()) systems.emplace(system, scan);
+  }
+  for (const auto& [system, scan] : systems) {
+    const std::string shown = system.size() > kMostShown ? system.substr(0, kMostShown) + "..." : system;
+    const std::string text = scan.filename().string() + " is in the coordinate system " + shown;
+    if (systems.size() > 1) {
+      context.warn(text + "; others are in another: are all in one unit?");
+    } else {
+      context.info(text + ", which results do not keep");
+    }
+  }
 }
+
+BinLayout parse_bin(const std::string& text) {
+  if (text.empty()) return BinLayout::kNone;
+  if (text == "kitti") return BinLayout::kKitti;
+  if (text == "nuscenes") return BinLayout::kNuScenes;
+  throw InvalidOptions("--bin '" + text + "': choose one of kitti, nuscenes");
+}
+
+void report_left_out(const ScanInputs& inputs, const RunContext& context) {
+  constexpr std::size_t kMost = 5;  // a folder may hold a thousand photos
+  for (std::size_t i = 0; i < std::min(kMost, inputs.left_out.size()); ++i) {
+    context.warn("left out: " + inputs.left_out[i]);
+  }
+  if (inputs.left_out.size() > kMost) {
+    context.warn("left out: " + std::to_string(inputs.left_out.size() - kMost) + " more files");
+  }
+}
+
+namespace {
+
+InitialPoses poses_in_headers(const std::vector<std::filesystem::path>& paths) {
+  InitialPoses poses;
+  for (const auto& path : paths) poses.push_back(ScanReader(path, ReadAttributes::kNo).header_pose());
+  const bool has_any = std::any_of(poses.begin(), poses.end(), [](const auto& pose) { return pose.has_value(); });
+  if (has_any) return poses;
+  throw InvalidOptions("--init headers: no scan has a pose in its file; only PTX and E57 have them");
+}
+
+}  // namespace
 
 InitialPoses read_guess(const ScanSetOptions& options, const std::vector<std::filesystem::path>& paths) {
   if (options.initial_poses.empty()) return InitialPoses(paths.size());
-  std::vector<std::string> files;
-  for (const auto& p : paths) files.push_back(p.filename().string());
-  return read_initial_poses(options.initial_poses, files);
+  if (options.initial_poses == kFromHeaders) return poses_in_headers(paths);
+  return read_initial_poses(options.initial_poses, scan_names(paths));
 }
 
 RunContext run_context(const ScanSetOptions& options, Console& console) {

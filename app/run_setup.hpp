@@ -9,13 +9,28 @@
 #include "console.hpp"
 #include "register_options.hpp"
 #include "tcm_icp/core/run_context.hpp"
+#include "tcm_icp/io/scan_inputs.hpp"
 #include "tcm_icp/pipeline/pipeline.hpp"
 
 namespace tcm_icp::app {
 
-std::vector<std::filesystem::path> paths_of(const ScanSetOptions& options);
+/// Warns of the files in folders that were left out.
+void report_left_out(const ScanInputs& inputs, const RunContext& context);
 
-/// The initial poses of --init; none where it is not given. @throws InputError
+/// Says that coordinate systems, which LAS and E57 files may name, are not kept, and warns where they differ.
+void report_coordinate_systems(const std::vector<std::filesystem::path>& scans, const RunContext& context);
+
+/// The option --bin. @throws InvalidOptions
+BinLayout parse_bin(const std::string& text);
+
+constexpr const char* kBinHelp = "what .bin files are: kitti (x y z intensity) or nuscenes (x y z intensity ring)";
+
+/// What --init has in place of a file's name for the poses that scans have in their own files.
+constexpr std::string_view kFromHeaders = "headers";
+
+/// The initial poses of --init; none where it is not given.
+/// @throws InputError      they cannot be read
+/// @throws InvalidOptions  they are to come from the scans' files, and none has one
 InitialPoses read_guess(const ScanSetOptions& options, const std::vector<std::filesystem::path>& paths);
 
 /// Reports to the console, which must outlive it.

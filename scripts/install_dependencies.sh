@@ -19,7 +19,7 @@ TEXT
 
 # GMP, MPFR and Boost's headers come with libcgal-dev.
 packages=(g++ cmake ninja-build ccache libcgal-dev libeigen3-dev libfftw3-dev libglpk-dev libboost-program-options-dev
-          libtbb-dev nlohmann-json3-dev)
+          libtbb-dev nlohmann-json3-dev libpugixml-dev zlib1g-dev)
 while (($# > 0)); do
   case $1 in
     --tests) packages+=(libgtest-dev) ;;

@@ -27,12 +27,12 @@ TEST_F(BadInput, IsAFileThatIsNotThere) {
 
 TEST_F(BadInput, IsAFolder) {
   std::filesystem::create_directory(folder() / "scans");
-  expect_bad({"a.xyz", "scans"}, 2, {"scans", "is a folder", "name the files"});
+  expect_bad({"a.xyz", "scans"}, 2, {"scans", "is a folder without a scan", "name the files"});
 }
 
 TEST_F(BadInput, IsAnUnknownExtension) {
-  folder_.write("c.e57", "0 0 0\n");
-  expect_bad({"a.xyz", "c.e57"}, 2, {"c.e57", "unknown extension", "convert it"});
+  folder_.write("c.rcp", "0 0 0\n");
+  expect_bad({"a.xyz", "c.rcp"}, 2, {"c.rcp", "no known format", "convert it"});
 }
 
 TEST_F(BadInput, IsFewerThanThreePoints) {
@@ -69,10 +69,12 @@ TEST_F(BadInput, IsTheSameFileTwice) {
   for (const char* again : {"a.xyz", "./a.xyz", "link.xyz"}) expect_bad({"a.xyz", again}, 2, {again, "named twice"});
 }
 
-TEST_F(BadInput, IsTwoFilesOfOneName) {
-  std::filesystem::create_directory(folder() / "other");
-  folder_.write("other/a.xyz", "0 0 0\n1 0 0\n0 1 0\n");
-  expect_bad({"a.xyz", "other/a.xyz"}, 2, {"other/a.xyz", "same file name", "rename"});
+TEST_F(BadInput, IsAPatternThatMatchesNothing) {
+  expect_bad({"a.xyz", "c*.xyz"}, 2, {"c*.xyz", "no file matches", "check the path"});
+}
+
+TEST_F(BadInput, IsAScanThatAFileDoesNotHold) {
+  expect_bad({"a.xyz", "b.xyz#3"}, 2, {"b.xyz", "no scan 3", "b.xyz#1"});
 }
 
 TEST_F(BadInput, IsAReferenceThatIsNoScan) {

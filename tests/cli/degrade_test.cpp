@@ -48,7 +48,7 @@ TEST_F(Degrade, RefusesWhatCannotBeDone) {
   expect_refusal(Words{"degrade"} + town_scans({0}) + Words{"--noise", "0.1"}, 1, {"out"});
   expect_refusal(Words{"degrade", "none.ply", "--out", "worse", "--noise", "0.1"}, 2, {"none.ply", "no such file"});
   expect_refusal(Words{"degrade"} + town_scans({0, 0}) + Words{"--out", "worse", "--noise", "0.1"}, 2,
-                 {"000.ply", "same file name"});
+                 {"000.ply", "named twice"});
   folder_.write("a.xyz", "0 0 0\n1 1 1\n");
   expect_refusal({"degrade", "a.xyz", "--out", "worse", "--noise", "0.1"}, 2, {"a.xyz", "at least 3"});
   std::filesystem::create_directory(folder() / "photos");

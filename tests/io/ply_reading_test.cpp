@@ -157,7 +157,7 @@ TEST(PlyReading, WhatIsWrongIsNamedWithItsPlace) {
   const std::string xyz = "property float x\nproperty float y\nproperty float z\n";
   const std::vector<std::pair<std::string, std::string>> cases = {
       {"pl", "byte 0: is not a PLY file"},
-      {"LASF 1.2", "byte 0: is not a PLY file"},
+      {"LISP 1.2", "byte 0: is not a PLY file"},
       {"plywood\n", "header line 1: holds more than 'ply'"},
       {"ply\nformat ascii 1.0\n", "header line 2: is the last line, but the header has no 'end_header'"},
       {"ply\nformat ebcdic 1.0\n", "header line 2: names the unknown format 'ebcdic'"},
@@ -206,6 +206,12 @@ TEST(PlyReading, WhatIsWrongIsNamedWithItsPlace) {
     EXPECT_NE(message.find(expected), std::string::npos) << "message: " << message << "\nexpected: " << expected;
     EXPECT_EQ(message.find(path.string()), 0u) << message;
   }
+}
+
+TEST(PlyReading, AByteOrderMarkIsPassedOver) {
+  const TempFolder folder;
+  const std::string ply = ply_header("ascii", xyz_vertices(1)) + "1 2 3\n";
+  EXPECT_EQ(read_whole(folder.write("a.ply", "\xEF\xBB\xBF" + ply)).block.points, Points({{1, 2, 3}}));
 }
 
 TEST(PlyReading, AHeaderWithoutEndIsNotReadToTheEndOfTheFile) {

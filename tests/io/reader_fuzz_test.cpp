@@ -5,11 +5,13 @@
 #include <string>
 #include <vector>
 
+#include "io/las_file.hpp"
 #include "io/ply_text.hpp"
 #include "io/temp_files.hpp"
 #include "tcm_icp/core/error.hpp"
 #include "tcm_icp/core/random.hpp"
 #include "tcm_icp/io/pose_io.hpp"
+#include "tcm_icp/io/scan_path.hpp"
 #include "tcm_icp/io/scan_reader.hpp"
 
 namespace tcm_icp {
@@ -57,12 +59,16 @@ struct Outcome {
 /// Any exception but ours ends the test.
 void read_damaged_scan(const std::filesystem::path& path, Outcome& outcome) {
   try {
-    ScanReader reader(path);
-    PointBlock block;
-    while (reader.read(block, 7)) {
-      ASSERT_LE(block.size(), 7u);
-      ASSERT_EQ(block.attributes.size(), block.size() * reader.attribute_stride());
-      for (const auto& point : block.points) ASSERT_TRUE(point.allFinite());
+    for (const auto& scan : scans_in(path)) {
+      ScanReader reader(scan);
+      PointBlock block;
+      while (reader.read(block, 7)) {
+        ASSERT_LE(block.size(), 7u);
+        ASSERT_EQ(block.attributes.size(), block.size() * reader.attribute_stride());
+        for (const auto& point : block.points) ASSERT_TRUE(point.allFinite());
+      }
+      const auto pose = reader.header_pose();
+      ASSERT_TRUE(!pose || pose->matrix().allFinite());
     }
     ++outcome.num_read;
   } catch (const InputError&) {
@@ -82,6 +88,46 @@ std::string binary_ply(Order order) {
   return content;
 }
 
+std::string las() {
+  test::LasParts parts;
+  parts.format = 3;
+  parts.record_size = 34 + 4;
+  parts.records = test::las_record("LASF_Spec", 4, test::las_extra("e", 9, 0));
+  parts.num_records = 1;
+  parts.num_points = 20;
+  for (int i = 0; i < 20; ++i) parts.points += test::padded(test::las_xyz(i, 2 * i, -i), 34) + bytes_of(1.5F);
+  return test::las_file(parts);
+}
+
+std::string ptx() {
+  std::string text;
+  for (int cloud = 0; cloud < 2; ++cloud) {
+    text += "4\n5\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n1 0 0 0\n0 1 0 0\n0 0 1 0\n5 6 7 1\n";
+    for (int i = 0; i < 20; ++i) text += std::to_string(i % 7) + " 0 0 0.5 10 20 30\n";
+  }
+  return text;
+}
+
+std::string pcd(const std::string& data) {
+  std::string text =
+      "VERSION .7\nFIELDS x y z rgb\nSIZE 4 4 4 4\nTYPE F F F U\nCOUNT 1 1 1 1\nWIDTH 20\nHEIGHT 1\nPOINTS 20\nDATA ";
+  text.append(data).append("\n");
+  std::string bytes;
+  for (int i = 0; i < 20; ++i) {
+    if (data == "ascii") text.append(std::to_string(i)).append(" 0.5 -3 70000\n");
+    bytes += test::joined(static_cast<float>(i), 0.5F, 0.F, 70000U);
+  }
+  if (data == "ascii") return text;
+  if (data == "binary") return text + bytes;
+  // Packed: half as it is, half as copies of what stood 160 bytes before.
+  std::string packed;
+  for (std::size_t at = 0; at < 160; at += 32) packed.append("\x1F").append(bytes, at, 32);
+  packed += std::string("\xE0\x97\x9F", 3);
+  text += bytes_of(static_cast<std::uint32_t>(packed.size()));
+  text += bytes_of(320U);
+  return text + packed;
+}
+
 TEST(ReaderFuzz, DamagedScansAreReadOrRefused) {
   const TempFolder folder;
   std::string ascii = ply_header("ascii", test::xyz_vertices(20) + "property uchar r\nproperty list uchar int l\n");
@@ -96,7 +142,12 @@ TEST(ReaderFuzz, DamagedScansAreReadOrRefused) {
                                                                  {"big.ply", binary_ply(Order::kBig)},
                                                                  {"ascii.ply", ascii},
                                                                  {"a.pts", text},
-                                                                 {"a.csv", csv}};
+                                                                 {"a.csv", csv},
+                                                                 {"a.las", las()},
+                                                                 {"a.ptx", ptx()},
+                                                                 {"ascii.pcd", pcd("ascii")},
+                                                                 {"binary.pcd", pcd("binary")},
+                                                                 {"packed.pcd", pcd("binary_compressed")}};
   for (const auto& [name, content] : good) {
     Rng rng = make_stream(1, "reader_fuzz", name);
     Outcome whole, outcome;

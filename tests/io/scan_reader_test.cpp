@@ -38,7 +38,7 @@ TEST(ScanReader, FilesThatCannotBeOpenedAreErrors) {
   std::filesystem::create_directory(folder.path() / "folder.ply");
   EXPECT_NE(message(folder.path() / "folder.ply").find("is a folder"), std::string::npos);
   EXPECT_NE(message(folder.write("empty.xyz", "")).find("is empty"), std::string::npos);
-  EXPECT_NE(message(folder.write("a.laz", "LASF")).find("unknown extension '.laz'"), std::string::npos);
+  EXPECT_NE(message(folder.write("a.foo", "LAS")).find("extension '.foo'"), std::string::npos);
 }
 
 TEST(ScanReader, ABlockHoldsAtMostWhatWasAskedForAndNeverNothing) {

@@ -115,7 +115,9 @@ TEST(TextReading, WhatIsWrongIsNamedWithItsPlace) {
       {"1 2 3\n4 5 6 7\n", "line 2: has 4 columns, but the first point has 3"},
       {"1 2\n", "line 1: has 2 columns, but a point has x, y and z"},
       {"1,2,,4\n", "line 1: column 3 holds '', which is not a number"},
-      {"1,5;2,5;3,5\n", "write decimal points, not commas"},
+      {"1,5;2,5;3,5\n1.5;2;3\n", "'1.5' is written with a decimal point, but numbers before it with a comma"},
+      {"1.5;2;3\n1,5;2;3\n", "'1,5' is written with a decimal comma, but numbers before it with a point"},
+      {"1,5;2,5;3,5,5\n", "column 3 holds '3,5,5', which is not a number"},
       {"1 2 3 4e\n", "line 1: column 4 holds '4e'"},
       {"1 2 1e999\n", "line 1: column 3 holds '1e999'"},
       {"east north up\n1 2 3\n", "line 1: begins with 'east', which is neither a number nor a header"},
@@ -131,6 +133,66 @@ TEST(TextReading, WhatIsWrongIsNamedWithItsPlace) {
       EXPECT_EQ(message.find(path.string()), 0u) << message;
     }
   }
+}
+
+TEST(TextReading, DecimalCommasStandWhereTheSeparatorIsNoComma) {
+  const TempFolder folder;
+  for (const std::string content :
+       {"1,5;-2;3,25;4\n5;6,5;7;8,125\n", "1,5 -2 3,25 4\n5 6,5 7 8,125\n", "1,5\t-2\t3,25\t4\n5\t6,5\t7\t8,125\n",
+        "X;Y;Z;t\n1,5;-2;3,25;4\n5;6,5;7;8,125\n"}) {
+    const WholeScan scan = read_whole(folder.write("a.csv", content));
+    EXPECT_EQ(scan.block.points, Points({{1.5, -2, 3.25}, {5, 6.5, 7}})) << content;
+    EXPECT_EQ(scan.attributes.size(), 1u) << content;
+  }
+  for (const std::string content : {"1,2,3\n", "1, 2, 3\n", "1 ,2 ,3\n", "1,2, 3\n"}) {
+    EXPECT_EQ(read_whole(folder.write("b.csv", content)).block.points, Points({{1, 2, 3}})) << content;
+  }
+}
+
+TEST(TextReading, WordsOfSurveyorsNameTheCoordinates) {
+  const TempFolder folder;
+  for (const std::string header : {"Northing,Easting,Code,Height", "N;E;code;H", "# NORTH East code elevation",
+                                   "Northing [m],Easting (m),code,\"Altitude\""}) {
+    const WholeScan scan = read_whole(folder.write("a.csv", header + "\n2,1,9,3\n"));
+    EXPECT_EQ(scan.block.points, Points({{1, 2, 3}})) << header;
+    EXPECT_EQ(scan.attributes.size(), 1u) << header;
+  }
+  const WholeScan scan = read_whole(folder.write("a.csv", "x,y,z,n,e,h\n1,2,3,4,5,6\n"));
+  EXPECT_EQ(scan.block.points, Points({{1, 2, 3}})) << "x y z come first";
+}
+
+TEST(TextReading, ColoursAreBytesWhereTheyLookLikeBytes) {
+  const TempFolder folder;
+  const WholeScan bytes = read_whole(folder.write("a.txt", "x y z R G B\n1 2 3 0 10 255\n4 5 6 7 8 9\n"));
+  EXPECT_EQ(attribute_of<std::uint8_t>(bytes, 0, "blue"), 255);
+  EXPECT_EQ(attribute_of<std::uint8_t>(bytes, 1, "red"), 7);
+  for (const char* const content :
+       {"x y z r g b\n1 2 3 0 1 1\n", "x y z r g b\n1 2 3 0.5 1 1\n", "x y z r g b\n1 2 3 7 7 7\n1 2 3 256 0 0\n"}) {
+    const WholeScan scan = read_whole(folder.write("b.txt", content));
+    EXPECT_EQ(scan.attributes.at(0).name, "red");
+    EXPECT_EQ(scan.attributes.at(0).type, ScalarType::kFloat64) << content;
+  }
+  std::string late = "x y z r g b\n";
+  for (int i = 0; i < 20'000; ++i) late += "1 2 3 100 0 0\n";
+  const auto path = folder.write("c.txt", late + "1 2 3 256 0 0\n");
+  EXPECT_NE(error_of<InputError>([&] { read_whole(path); }).find("line 20002: the red of a point"), std::string::npos);
+}
+
+TEST(TextReading, PtsColumnsHaveTheirUsualNames) {
+  const TempFolder folder;
+  const WholeScan scan = read_whole(folder.write("a.pts", "1\n1 2 3 -1200 10 20 30\n"));
+  EXPECT_EQ(attribute_of<double>(scan, 0, "intensity"), -1200);
+  EXPECT_EQ(attribute_of<std::uint8_t>(scan, 0, "green"), 20);
+  EXPECT_EQ(read_whole(folder.write("b.pts", "1 2 3 10 20 30\n")).attributes.at(2).name, "blue");
+  EXPECT_EQ(read_whole(folder.write("c.pts", "1 2 3 10 20\n")).attributes.at(0).name, "column_4");
+}
+
+TEST(TextReading, AMillionColumnsAreNoPoint) {
+  const TempFolder folder;
+  std::string line;
+  for (int i = 0; i < 500'000; ++i) line += "1 ";
+  const auto path = folder.write("a.xyz", line + "\n");
+  EXPECT_NE(error_of<InputError>([&] { read_whole(path); }).find("has 500000 columns"), std::string::npos);
 }
 
 TEST(TextReading, ALineWithoutEndIsRefused) {

@@ -26,8 +26,11 @@ SampledScan scan(const Content& content) {
 
 Order order(const std::vector<Content>& contents, const std::vector<std::filesystem::path>& paths) {
   std::vector<SampledScan> scans;
-  for (const auto& content : contents) scans.push_back(scan(content));
-  return order_by_content(scans, paths);
+  for (std::size_t i = 0; i < contents.size(); ++i) {
+    scans.push_back(scan(contents[i]));
+    scans.back().scan.file = paths[i].filename();
+  }
+  return order_by_content(scans);
 }
 
 TEST(OrderByContent, CountsDecideThenExtentsThenSpacings) {

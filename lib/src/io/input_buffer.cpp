@@ -2,37 +2,16 @@
 
 #include <algorithm>
 #include <cstring>
-#include <system_error>
 #include <utility>
 
 #include "tcm_icp/core/error.hpp"
 
 namespace tcm_icp {
 
-namespace {
-
-/// Twice the longest line, so that a whole one always fits beside what is left of the buffer; small files need less.
-std::size_t buffer_size(const std::filesystem::path& path) {
-  constexpr std::size_t kLargest = 2 * InputBuffer::kMaxLine;
-  std::error_code error;
-  const std::uintmax_t size = std::filesystem::file_size(path, error);
-  if (error || size == 0) return kLargest;  // files of the kernel say 0 and hold something
-  return static_cast<std::size_t>(std::min<std::uintmax_t>(size, kLargest));
-}
-
-}  // namespace
-
-InputBuffer::InputBuffer(std::filesystem::path path) : path_(std::move(path)) {
-  std::error_code error;
-  const auto status = std::filesystem::status(path_, error);
-  if (!std::filesystem::exists(status)) throw InputError(path_, "", "there is no such file", "check the path");
-  if (std::filesystem::is_directory(status)) throw InputError(path_, "", "is a folder", "name the files in it");
-  if (!std::filesystem::is_regular_file(status)) throw InputError(path_, "", "is not a regular file", "copy it to one");
-  buffer_.resize(buffer_size(path_));
-  // Our buffer is the only one: without this every byte is copied twice.
-  stream_.rdbuf()->pubsetbuf(nullptr, 0);
-  stream_.open(path_, std::ios::binary);
-  if (!stream_) throw InputError(path_, "", "cannot be opened", "check its permissions");
+InputBuffer::InputBuffer(std::filesystem::path path) : path_(std::move(path)), stream_(open_bytes(path_)) {
+  // Twice the longest line, so that a whole one always fits beside what is left of the buffer; small files need less.
+  constexpr std::size_t kLargest = 2 * kMaxLine;
+  buffer_.resize(static_cast<std::size_t>(std::min<std::uint64_t>(size().value_or(kLargest), kLargest)));
   if (!refill()) throw InputError(path_, "", "is empty", "leave it out, or make it again");
 }
 
@@ -40,14 +19,27 @@ bool InputBuffer::refill() {
   std::memmove(buffer_.data(), buffer_.data() + begin_, end_ - begin_);
   end_ -= begin_;
   begin_ = 0;
-  stream_.read(reinterpret_cast<char*>(buffer_.data() + end_), static_cast<std::streamsize>(buffer_.size() - end_));
-  if (stream_.bad()) throw InputError(path_, byte_place(), "cannot be read", "check the disk");
-  const auto count = static_cast<std::size_t>(stream_.gcount());
+  const std::size_t count = stream_->read(buffer_.data() + end_, buffer_.size() - end_);
   end_ += count;
   return count > 0;
 }
 
+std::string_view InputBuffer::head(std::size_t n) {
+  while (end_ - begin_ < n && refill()) continue;
+  return {reinterpret_cast<const char*>(buffer_.data() + begin_), std::min(n, end_ - begin_)};
+}
+
+void InputBuffer::skip_to(std::uint64_t offset, std::uint64_t lines_before) {
+  skip(offset - offset_);
+  line_number_ = lines_before;
+}
+
 bool InputBuffer::skip(std::uint64_t n) {
+  if (n > buffer_.size() && size() && n <= *size() - offset_ && stream_->seek(offset_ + n)) {
+    offset_ += n;
+    begin_ = end_ = 0;
+    return true;
+  }
   while (n > 0) {
     if (begin_ == end_ && !refill()) return false;
     const auto step = static_cast<std::size_t>(std::min<std::uint64_t>(n, end_ - begin_));

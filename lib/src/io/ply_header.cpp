@@ -17,6 +17,7 @@ class HeaderParser {
   explicit HeaderParser(InputBuffer& input) : input_(input) {}
 
   PlyHeader parse() {
+    if (input_.head(3) == "\xEF\xBB\xBF") input_.consume(3);
     const std::byte* const magic = input_.peek(3);
     if (!magic || std::memcmp(magic, "ply", 3) != 0) {
       throw InputError(input_.path(), "byte 0", "is not a PLY file: it does not begin with 'ply'",

@@ -3,6 +3,7 @@
 #include <bit>
 #include <cstring>
 #include <limits>
+#include <utility>
 
 #include "fields.hpp"
 #include "scalar.hpp"
@@ -34,7 +35,7 @@ double load_value(const std::byte* from, ScalarType type, bool swapped) {
 
 }  // namespace
 
-PlySource::PlySource(const std::filesystem::path& path) : input_(path), header_(read_ply_header(input_)) {
+PlySource::PlySource(InputBuffer input) : input_(std::move(input)), header_(read_ply_header(input_)) {
   lay_out_fields();
   for (std::size_t i = 0; i < header_.vertex; ++i) skip_element(header_.elements[i]);
   num_read_ = 0;

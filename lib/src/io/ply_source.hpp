@@ -14,7 +14,7 @@ namespace tcm_icp {
 
 class PlySource : public ScanSource {
  public:
-  explicit PlySource(const std::filesystem::path& path);
+  explicit PlySource(InputBuffer input);
 
   const std::vector<Attribute>& attributes() const override { return attributes_; }
   bool next(Eigen::Vector3d& point, std::byte* attributes) override;

@@ -1,40 +1,21 @@
 #include "tcm_icp/io/scan_reader.hpp"
 
-#include <algorithm>
-#include <cctype>
 #include <string>
-#include <system_error>
 #include <utility>
 
-#include "ply_source.hpp"
+#include "open_scan.hpp"
 #include "tcm_icp/core/error.hpp"
-#include "text_source.hpp"
+#include "tcm_icp/core/rigid_transform.hpp"
 
 namespace tcm_icp {
-namespace {
-
-std::unique_ptr<ScanSource> open_source(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  if (extension == ".ply") return std::make_unique<PlySource>(path);
-  for (const char* const text : {".xyz", ".txt", ".asc", ".pts", ".csv"}) {
-    if (extension == text) return std::make_unique<TextSource>(path);
-  }
-  std::error_code unreachable;  // then it is not known to be a folder, and the extension is what there is to say
-  if (std::filesystem::is_directory(path, unreachable))
-    throw InputError(path, "", "is a folder", "name the files in it");
-  throw InputError(path, "", "has the unknown extension '" + extension + "'",
-                   "scans are read from .ply, .xyz, .txt, .asc, .pts and .csv; convert it to one of them");
-}
-
-}  // namespace
-
 struct ScanReader::Impl {
-  Impl(const std::filesystem::path& path, ReadAttributes read_attributes)
-      : source(open_source(path)),
+  Impl(const std::filesystem::path& scan_path, ReadAttributes read_attributes)
+      : path(scan_path),
+        source(open_scan(scan_path, read_attributes)),
         attributes(read_attributes == ReadAttributes::kYes ? source->attributes() : std::vector<Attribute>{}),
         stride(tcm_icp::attribute_stride(attributes)) {}
 
+  std::filesystem::path path;
   std::unique_ptr<ScanSource> source;
   std::vector<Attribute> attributes;
   std::size_t stride;
@@ -51,6 +32,22 @@ const std::vector<Attribute>& ScanReader::attributes() const { return impl_->att
 std::size_t ScanReader::attribute_stride() const { return impl_->stride; }
 std::uint64_t ScanReader::num_points() const { return impl_->num_points; }
 std::uint64_t ScanReader::num_dropped() const { return impl_->num_dropped; }
+
+std::optional<Eigen::Isometry3d> ScanReader::header_pose() const {
+  const auto matrix = impl_->source->header_pose();
+  if (!matrix) return std::nullopt;
+  constexpr double kRigidOnReading = 1e-3;  // matrices written with few digits pass, a scale or a mirror image does not
+  if (!is_rigid(*matrix, kRigidOnReading)) {
+    throw InputError(impl_->path, "header", "the scan's transformation is not a rigid motion",
+                     "leave out --init headers, or export the scan without scale");
+  }
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  pose.linear() = project_onto_so3(matrix->topLeftCorner<3, 3>());
+  pose.translation() = matrix->topRightCorner<3, 1>();
+  return pose;
+}
+
+std::string ScanReader::coordinate_system() const { return impl_->source->coordinate_system(); }
 
 bool ScanReader::read(PointBlock& block, std::size_t max_points) {
   if (max_points == 0) throw InvalidOptions("max_points = 0: a block holds at least one point");

@@ -21,6 +21,11 @@ std::string lower_extension(const std::filesystem::path& path) {
   return extension;
 }
 
+bool is_text(const std::string& extension) {
+  static const std::set<std::string> kText{".xyz", ".txt", ".asc", ".pts", ".csv"};
+  return kText.contains(extension);
+}
+
 void write_ply(std::ostream& out, const PointBlock& block, const std::vector<Attribute>& attributes) {
   out << "ply\nformat binary_little_endian 1.0\ncomment made by tcm-icp\nelement vertex " << block.size()
       << "\nproperty double x\nproperty double y\nproperty double z\n";
@@ -57,13 +62,16 @@ void write_text(std::ostream& out, const PointBlock& block, const std::vector<At
 
 }  // namespace
 
+bool can_write_scan(const std::filesystem::path& path) {
+  const std::string extension = lower_extension(path);
+  return extension == ".ply" || is_text(extension);
+}
+
 void write_scan(const std::filesystem::path& path, const PointBlock& block, const std::vector<Attribute>& attributes) {
   if (block.attributes.size() != block.size() * attribute_stride(attributes))
     throw InvalidInput("scan writer: the attributes do not fit the points");
-  static const std::set<std::string> kText{".xyz", ".txt", ".asc", ".pts", ".csv"};
   const std::string extension = lower_extension(path);
-  if (extension != ".ply" && !kText.contains(extension))
-    throw InvalidInput("scan writer: unknown extension '" + extension + "'");
+  if (!can_write_scan(path)) throw InvalidInput("scan writer: unknown extension '" + extension + "'");
   std::ofstream out(path, std::ios::binary);
   extension == ".ply" ? write_ply(out, block, attributes) : write_text(out, block, attributes);
   out.close();

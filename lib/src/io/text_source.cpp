@@ -1,14 +1,15 @@
 #include "text_source.hpp"
 
 #include <algorithm>
-#include <cctype>
-#include <charconv>
 #include <cstring>
 #include <utility>
 
+#include "attribute_names.hpp"
 #include "fields.hpp"
 #include "scalar.hpp"
+#include "scan_format.hpp"
 #include "tcm_icp/core/error.hpp"
+#include "text_columns.hpp"
 
 namespace tcm_icp {
 namespace {
@@ -16,7 +17,7 @@ namespace {
 /// The delimiter of a line: a semicolon before a comma, because with decimal commas both stand in it.
 char delimiter_of(std::string_view line) {
   if (line.find(';') != std::string_view::npos) return ';';
-  return line.find(',') != std::string_view::npos ? ',' : ' ';
+  return line.find(',') != std::string_view::npos && !has_decimal_commas(line) ? ',' : ' ';
 }
 
 std::size_t comment_prefix(std::string_view line) {
@@ -30,25 +31,9 @@ bool begins_like_a_number(std::string_view line) {
   return line.find_first_of("+-.0123456789") == 0 || parse_number(token).has_value();
 }
 
-std::string lower_case(std::string_view text) {
-  std::string lower(text);
-  for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return lower;
-}
-
-/// A name as a PLY property may have it: what is not a letter, digit or one of _.- becomes '_'.
-std::string attribute_name(std::string_view text) {
-  std::string name;
-  for (const char c : text) {
-    const bool keeps = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '.' || c == '-';
-    if (c != '"') name += keeps ? c : '_';
-  }
-  return name;
-}
-
 }  // namespace
 
-TextSource::TextSource(const std::filesystem::path& path) : input_(path) {
+TextSource::TextSource(InputBuffer input, CloudIs cloud) : input_(std::move(input)), cloud_(cloud) {
   const std::byte* const bom = input_.peek(3);
   if (bom && std::memcmp(bom, "\xEF\xBB\xBF", 3) == 0) input_.consume(3);
   read_start();
@@ -75,26 +60,18 @@ bool TextSource::take_header(std::string_view line) {
   if (prefix == std::string_view::npos) return true;
   split_fields(line.substr(prefix), delimiter_of(line), fields_);
   if (prefix == 0 && begins_like_a_number(line)) return false;
-  std::vector<std::string> names, axes;
-  for (const auto field : fields_) {
-    names.push_back(attribute_name(field));
-    axes.push_back(lower_case(names.back()));
-  }
-  std::array<std::size_t, 3> columns{};
-  bool has_axes = true;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const auto at = std::find(axes.begin(), axes.end(), std::string(1, static_cast<char>('x' + axis)));
-    columns[axis] = static_cast<std::size_t>(at - axes.begin());
-    has_axes = has_axes && at != axes.end();
-  }
-  if (has_axes && header_.empty()) {
-    header_ = std::move(names);
-    axis_columns_ = columns;
+  const auto axes = find_axes(fields_);
+  if (axes && header_.empty()) {
+    for (const auto field : fields_) {
+      const std::string colour = colour_of(field);
+      header_.push_back(colour.empty() ? attribute_name(field) : colour);
+    }
+    axis_columns_ = *axes;
     header_is_comment_ = prefix != 0;
   } else if (prefix == 0) {
     fail("begins with " + quoted(line.substr(0, line.find_first_of(" \t,;"))) +
              ", which is neither a number nor a header",
-         "a header names the columns x, y and z; put # before a comment");
+         "a header names the columns x, y and z, or easting, northing and height; put # before a comment");
   }
   return true;
 }
@@ -102,8 +79,7 @@ bool TextSource::take_header(std::string_view line) {
 /// A whole number alone on a line before the points is their count.
 bool TextSource::take_count(std::string_view line) {
   std::uint64_t count = 0;
-  const auto [rest, error] = std::from_chars(line.data(), line.data() + line.size(), count);
-  if (error != std::errc() || rest != line.data() + line.size()) return false;
+  if (!is_count_line(line, count)) return false;
   if (promised_) fail("is a second count line", "remove it");
   promised_ = count;
   return true;
@@ -115,6 +91,10 @@ void TextSource::take_first_record(std::string_view line) {
   if (fields_.size() < 3) {
     fail("has " + std::to_string(fields_.size()) + " columns, but a point has x, y and z",
          "separate columns by blanks, tabs, commas or semicolons");
+  }
+  constexpr std::size_t kMostColumns = 4096;
+  if (fields_.size() > kMostColumns) {
+    fail("has " + std::to_string(fields_.size()) + " columns; at most 4096 are read", "this may be no list of points");
   }
   if (header_is_comment_ && header_.size() != fields_.size()) {  // "# x y z are in metres" is no header after all
     header_.clear();
@@ -131,18 +111,51 @@ void TextSource::take_first_record(std::string_view line) {
 
 void TextSource::name_attributes() {
   const std::size_t count = num_columns_ > 0 ? num_columns_ : header_.size();
+  if (header_.empty() && extension_of(input_.path()) == ".pts") {
+    const std::vector<std::string> usual = pts_names(count);
+    if (!usual.empty()) header_ = {"x", "y", "z"};
+    header_.insert(header_.end(), usual.begin(), usual.end());
+  }
   for (std::size_t column = 0; column < count; ++column) {
     if (std::find(axis_columns_.begin(), axis_columns_.end(), column) != axis_columns_.end()) continue;
-    const auto is_taken = [&](const std::string& name) {
-      return name.empty() || std::any_of(attributes_.begin(), attributes_.end(),
-                                         [&](const Attribute& attribute) { return attribute.name == name; });
-    };
-    std::string name = header_.empty() ? std::string() : header_[column];
-    if (is_taken(name)) name = "column_" + std::to_string(column + 1);
-    while (is_taken(name)) name += '_';
+    std::string name = unique_name(header_.empty() ? std::string() : header_[column],
+                                   "column_" + std::to_string(column + 1), attributes_);
     attributes_.push_back({std::move(name), ScalarType::kFloat64});
     attribute_columns_.push_back(column);
   }
+  find_byte_colours();
+}
+
+/// Colours are bytes where all of the first points have whole numbers from 0 to 255, and not all just 0 and 1.
+void TextSource::find_byte_colours() {
+  constexpr std::size_t kLook = std::size_t{1} << 16U;
+  std::vector<std::size_t> colours;
+  for (std::size_t i = 0; i < attributes_.size(); ++i) {
+    const std::string& name = attributes_[i].name;
+    if (name == "red" || name == "green" || name == "blue") colours.push_back(i);
+  }
+  if (colours.size() != 3 || !has_pending_) return;
+  double highest = 0;
+  const auto look = [&](double value) {
+    highest = std::max(highest, value);
+    return fits(value, ScalarType::kUInt8);
+  };
+  for (const std::size_t i : colours) {
+    if (!look(values_[attribute_columns_[i]])) return;
+  }
+  std::string_view text = input_.head(kLook);
+  std::vector<std::string_view> fields;
+  for (std::size_t end = text.find('\n'); end != std::string_view::npos; end = text.find('\n')) {
+    split_fields(text.substr(0, end), delimiter_, fields);
+    text.remove_prefix(end + 1);
+    if (fields.size() < num_columns_) continue;
+    for (const std::size_t i : colours) {
+      const auto value = parse_number(fields[attribute_columns_[i]]);
+      if (value && !look(*value)) return;  // what is no number is told when its turn comes
+    }
+  }
+  if (highest <= 1) return;
+  for (const std::size_t i : colours) attributes_[i].type = ScalarType::kUInt8;
 }
 
 bool TextSource::next_content_line(std::string_view& line) {
@@ -153,6 +166,14 @@ bool TextSource::next_content_line(std::string_view& line) {
   return false;
 }
 
+/// Where all promised points are there, another count begins another cloud.
+bool TextSource::begins_next_cloud(std::string_view line) const {
+  std::uint64_t count = 0;
+  if (!promised_ || num_read_ != *promised_ || !is_count_line(line, count)) return false;
+  if (cloud_ == CloudIs::kAll) refuse_several(input_);
+  return true;
+}
+
 void TextSource::parse_record(std::string_view line) {
   split_fields(line, delimiter_, fields_);
   if (fields_.size() != num_columns_) {
@@ -161,20 +182,40 @@ void TextSource::parse_record(std::string_view line) {
   }
   values_.resize(num_columns_);
   for (std::size_t column = 0; column < num_columns_; ++column) {
-    const auto value = parse_number(fields_[column]);
+    const auto value = parse_field(fields_[column]);
     if (!value) {
       fail("column " + std::to_string(column + 1) + " holds " + quoted(fields_[column]) + ", which is not a number",
-           fields_[column].find(',') != std::string_view::npos ? "write decimal points, not commas"
-                                                               : "mend the line, or put # before it");
+           "mend the line, or put # before it");
     }
     values_[column] = *value;
   }
 }
 
+/// A number, with a decimal comma where the file has those: which of the two, its first number with either decides.
+std::optional<double> TextSource::parse_field(std::string_view field) {
+  if (decimal_ == '.') {
+    const auto value = parse_number(field);
+    if (value || field.find(',') == std::string_view::npos) return value;
+  }
+  const std::size_t at = field.find_first_of(".,");
+  if (at == std::string_view::npos || field.find('#') != std::string_view::npos) return parse_number(field);  // 1.#INF
+  if (decimal_ != '\0' && field[at] != decimal_) {
+    fail(quoted(field) + " is written with a decimal " + (decimal_ == '.' ? "comma" : "point") +
+             ", but numbers before it with a " + (decimal_ == '.' ? "point" : "comma"),
+         "write all numbers in one way");
+  }
+  decimal_ = field[at];
+  if (decimal_ == '.') return parse_number(field);
+  number_ = field;
+  number_[at] = '.';
+  return parse_number(number_);
+}
+
 bool TextSource::next(Eigen::Vector3d& point, std::byte* attributes) {
   if (!std::exchange(has_pending_, false)) {
     std::string_view line;
-    if (!next_content_line(line)) {
+    if (is_finished_ || !next_content_line(line) || begins_next_cloud(line)) {
+      is_finished_ = true;
       check_count();
       return false;
     }
@@ -183,11 +224,24 @@ bool TextSource::next(Eigen::Vector3d& point, std::byte* attributes) {
   ++num_read_;
   if (promised_ && num_read_ > *promised_) check_count();
   for (int axis = 0; axis < 3; ++axis) point[axis] = values_[axis_columns_[static_cast<std::size_t>(axis)]];
+  check_colours();
   if (!attributes) return true;
   for (std::size_t i = 0; i < attribute_columns_.size(); ++i) {
-    std::memcpy(attributes + i * sizeof(double), &values_[attribute_columns_[i]], sizeof(double));
+    store_scalar(values_[attribute_columns_[i]], attributes_[i].type, attributes);
+    attributes += scalar_size(attributes_[i].type);
   }
   return true;
+}
+
+void TextSource::check_colours() const {
+  for (std::size_t i = 0; i < attributes_.size(); ++i) {
+    if (attributes_[i].type != ScalarType::kUInt8) continue;
+    const double value = values_[attribute_columns_[i]];
+    if (!fits(value, ScalarType::kUInt8)) {
+      fail("the " + attributes_[i].name + " of a point is no whole number from 0 to 255, as those before are",
+           "name the columns of colours otherwise, as R16");
+    }
+  }
 }
 
 void TextSource::check_count() const {

@@ -1,5 +1,5 @@
 #pragma once
-// The points of a text file, one a line: .xyz .txt .asc .pts .csv.
+// The points of a text file, one a line: .xyz .txt .asc .pts .csv; or of one of its clouds, where each has a count.
 
 #include <array>
 #include <cstdint>
@@ -10,12 +10,14 @@
 
 #include "input_buffer.hpp"
 #include "scan_source.hpp"
+#include "text_clouds.hpp"
 
 namespace tcm_icp {
 
 class TextSource : public ScanSource {
  public:
-  explicit TextSource(const std::filesystem::path& path);
+  /// @param input  at the start of a cloud
+  explicit TextSource(InputBuffer input, CloudIs cloud = CloudIs::kAll);
 
   const std::vector<Attribute>& attributes() const override { return attributes_; }
   bool next(Eigen::Vector3d& point, std::byte* attributes) override;
@@ -27,12 +29,19 @@ class TextSource : public ScanSource {
   void take_first_record(std::string_view line);
   void name_attributes();
   bool next_content_line(std::string_view& line);
+  bool begins_next_cloud(std::string_view line) const;
   void parse_record(std::string_view line);
+  std::optional<double> parse_field(std::string_view field);
+  void find_byte_colours();
+  void check_colours() const;
   void check_count() const;
   [[noreturn]] void fail(const std::string& problem, const std::string& remedy) const;
 
   InputBuffer input_;
+  CloudIs cloud_;
   char delimiter_ = ' ';
+  char decimal_ = '\0';              ///< '.' or ',', once one has been seen
+  std::string number_;               ///< a field whose comma has become a point
   std::vector<std::string> header_;  ///< names of the columns; empty where the file has none
   bool header_is_comment_ = false;
   std::optional<std::uint64_t> promised_;  ///< points, by the count line
@@ -41,6 +50,7 @@ class TextSource : public ScanSource {
   std::vector<Attribute> attributes_;
   std::vector<std::size_t> attribute_columns_;
   bool has_pending_ = false;  ///< the first record is parsed on opening, and given by the first next()
+  bool is_finished_ = false;
   std::uint64_t num_read_ = 0;
   std::vector<std::string_view> fields_;
   std::vector<double> values_;

@@ -34,7 +34,7 @@ PipelineResult Pipeline::run(const std::vector<std::filesystem::path>& paths, co
       read_scans(paths, options, context, paper ? ScanDetail::kNormals : ScanDetail::kLinePieces);
   // Who asks for the order of the list gets it, and so does the paper, whose reference is the middle one of equals.
   const bool as_listed = paper || options.merge_order == MergeOrder::kFile;
-  const std::vector<std::size_t> order = as_listed ? order_of_list(paths.size()) : order_by_content(sampled, paths);
+  const std::vector<std::size_t> order = as_listed ? order_of_list(paths.size()) : order_by_content(sampled);
   sampled = in_order(std::move(sampled), order);
   std::vector<std::string> files;
   for (const auto& s : sampled) {

@@ -80,7 +80,9 @@ void write_result(const fs::path& folder, bool overwrite, const std::vector<fs::
   fs::create_directory(output.work() / "transforms");
   for (const auto& pose : result.poses) {
     if (pose.status == ScanStatus::kUnregistered) continue;
-    write_transform(output.work() / "transforms" / (pose.file + ".txt"), pose.T_reference_scan);
+    const fs::path file = output.work() / "transforms" / (pose.file + ".txt");
+    fs::create_directories(file.parent_path());  // "Setup1/scan.ply" is the name of one of several scan.ply
+    write_transform(file, pose.T_reference_scan);
   }
   clock.end();
   const Json report = report_object(result, options, context, description);

@@ -43,15 +43,14 @@ std::vector<std::size_t> order_of_list(std::size_t num_scans) {
   return order;
 }
 
-std::vector<std::size_t> order_by_content(const std::vector<SampledScan>& scans,
-                                          const std::vector<std::filesystem::path>& paths) {
+std::vector<std::size_t> order_by_content(const std::vector<SampledScan>& scans) {
   std::vector<std::size_t> order = order_of_list(scans.size());
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
     const Scan &x = scans[a].scan, &y = scans[b].scan;
     if (x.num_raw_points != y.num_raw_points) return x.num_raw_points < y.num_raw_points;
     if (x.extent_m != y.extent_m) return x.extent_m < y.extent_m;
     if (x.spacing_m != y.spacing_m) return x.spacing_m < y.spacing_m;
-    return paths[a].filename() < paths[b].filename();
+    return x.file < y.file;
   });
   return order;
 }

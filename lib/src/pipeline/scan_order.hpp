@@ -2,7 +2,6 @@
 // Scans are worked on in an order that comes from what they hold, and reported in the order in which they were given.
 
 #include <cstddef>
-#include <filesystem>
 #include <utility>
 #include <vector>
 
@@ -14,8 +13,7 @@ namespace tcm_icp {
 /// Positions of the scans in the list, by the number of their points, then by extent and spacing, which another frame
 /// or unit does not change. In this order ties are broken and sums taken, so that neither names nor the order of the
 /// list change a bit of any pose. Scans that are alike in all that go by name.
-std::vector<std::size_t> order_by_content(const std::vector<SampledScan>& scans,
-                                          const std::vector<std::filesystem::path>& paths);
+std::vector<std::size_t> order_by_content(const std::vector<SampledScan>& scans);
 
 /// 0, 1, 2, ...
 std::vector<std::size_t> order_of_list(std::size_t num_scans);

@@ -4,11 +4,13 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 
 #include "tcm_icp/core/error.hpp"
 #include "tcm_icp/core/parallel.hpp"
 #include "tcm_icp/core/rigid_transform.hpp"
 #include "tcm_icp/graph/correspondence_measure.hpp"
+#include "tcm_icp/io/scan_path.hpp"
 #include "tcm_icp/io/scan_reader.hpp"
 
 namespace tcm_icp {
@@ -29,8 +31,9 @@ double correspondence(const PreparedScan& scan_a, const PreparedScan& scan_b, co
 }  // namespace
 
 std::size_t find_scan(const std::vector<std::filesystem::path>& paths, const std::string& name) {
+  const std::vector<std::string> names = scan_names(paths);
   for (std::size_t i = 0; i < paths.size(); ++i) {
-    if (paths[i].filename() == name || paths[i] == name) return i;
+    if (names[i] == name || paths[i] == name) return i;
   }
   throw InvalidOptions("--reference " + name + ": no scan of that name; it must be one of the files given");
 }
@@ -40,16 +43,14 @@ void check_paths(const std::vector<std::filesystem::path>& paths, const InitialP
     throw InvalidOptions(std::to_string(initial_poses.size()) + " initial poses for " + std::to_string(paths.size()) +
                          " scans");
   }
-  std::set<std::filesystem::path> places;
-  std::set<std::string> names;
+  std::set<std::pair<std::filesystem::path, std::size_t>> places;
   for (const auto& path : paths) {
+    const ScanPath scan = parse_scan_path(path);
     std::error_code ignored;
-    const auto canonical = std::filesystem::weakly_canonical(path, ignored);
-    if (!places.insert(canonical.empty() ? path : canonical).second) {
+    const auto canonical = std::filesystem::weakly_canonical(scan.file, ignored);
+    const std::size_t number = std::max<std::size_t>(scan.number, 1);  // the only scan of its file may go without
+    if (!places.insert({canonical.empty() ? scan.file : canonical, number}).second) {
       throw InvalidInput(path.string() + ": named twice; name each scan once");
-    }
-    if (!names.insert(path.filename().string()).second) {
-      throw InvalidInput(path.string() + ": another scan has the same file name, and results go by it; rename one");
     }
   }
 }
@@ -58,6 +59,7 @@ std::vector<SampledScan> read_scans(const std::vector<std::filesystem::path>& pa
                                     const RunContext& context, ScanDetail detail) {
   // All headers first: the last file's absence should not cost the reading of all others.
   for (const auto& path : paths) const ScanReader opened(path, ReadAttributes::kNo);
+  const std::vector<std::string> names = scan_names(paths);
   std::vector<SampledScan> scans(paths.size());
   const auto batch = static_cast<std::size_t>(context.num_threads);
   for (std::size_t first = 0; first < paths.size(); first += batch) {
@@ -66,6 +68,7 @@ std::vector<SampledScan> read_scans(const std::vector<std::filesystem::path>& pa
     parallel_for(context.num_threads, count, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = first + begin; i < first + end; ++i) {
         scans[i] = sample_scan(paths[i], options.sampling, options.outliers, context.seed, 1, detail);
+        scans[i].scan.file = names[i];
       }
     });
   }

@@ -14,10 +14,10 @@
 
 namespace tcm_icp {
 
-/// The scan named by --reference: by its path or its file name. @throws InvalidOptions  if there is none
+/// The scan named by --reference: by its path or its name in results. @throws InvalidOptions  if there is none
 std::size_t find_scan(const std::vector<std::filesystem::path>& paths, const std::string& name);
 
-/// @throws InvalidInput    a file named twice, or two files of one name
+/// @throws InvalidInput    a scan named twice
 /// @throws InvalidOptions  another number of initial poses than of files
 void check_paths(const std::vector<std::filesystem::path>& paths, const InitialPoses& initial_poses);
 

@@ -12,7 +12,7 @@ namespace tcm_icp {
 enum class ScanStatus { kReference, kRegistered, kUnregistered };
 
 struct ScanPose {
-  std::string file;  ///< name of the input file, without folders
+  std::string file;  ///< name of the scan, as scan_names() has it
   ScanStatus status = ScanStatus::kUnregistered;
   Eigen::Isometry3d T_reference_scan = Eigen::Isometry3d::Identity();  ///< [m] for raw coordinates; unless unregistered
   std::optional<Eigen::Isometry3d> pose_in_component;  ///< for scans that hold together, but not with the reference
@@ -36,9 +36,9 @@ void write_pose_file(const std::filesystem::path& path, const PoseFile& poses);
 ///                     status, a pose that is missing or not rigid, two entries for one scan
 PoseFile read_pose_file(const std::filesystem::path& path);
 
-/// Initial poses for the scans `files` (names without folders), from a poses.json or a truth.json: `{"scans": [{"file":
-/// "a.ply", "pose": [[4x4]]}]}`. A scan without an entry, or with `"pose": null`, stays nullopt. A pose that is rigid
-/// to 1e-3 only has its rotation projected onto SO(3); its translation is taken as it is.
+/// Initial poses for the scans `files` (names as scan_names() has them), from a poses.json or a truth.json: `{"scans":
+/// [{"file": "a.ply", "pose": [[4x4]]}]}`. A scan without an entry, or with `"pose": null`, stays nullopt. A pose that
+/// is rigid to 1e-3 only has its rotation projected onto SO(3); its translation is taken as it is.
 /// @throws InputError  naming file and place: what read_pose_file() finds, and an entry for a scan that is not in
 /// `files`
 std::vector<std::optional<Eigen::Isometry3d>> read_initial_poses(const std::filesystem::path& path,

@@ -21,7 +21,7 @@ class RegisteredPlyWriter {
   /// share
   ///                         a column, wide enough for each scan's type. Names this file uses itself (red green blue
   ///                         alpha scan) get "input_" in front.
-  /// @param reference        file name of the reference scan, for a comment in the header
+  /// @param reference        name of the reference scan, for a comment in the header
   /// @throws OutputError     if the file cannot be opened or written
   RegisteredPlyWriter(std::filesystem::path path, std::vector<std::vector<Attribute>> scan_attributes,
                       const std::string& reference);

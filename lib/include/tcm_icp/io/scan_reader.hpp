@@ -1,10 +1,13 @@
 #pragma once
-// Reads a scan from a file, block by block: PLY and text files of points (docs/formats.md).
+// Reads a scan from a file, block by block (docs/formats.md lists the formats).
 
+#include <Eigen/Geometry>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "tcm_icp/io/point_block.hpp"
@@ -13,14 +16,15 @@ namespace tcm_icp {
 
 enum class ReadAttributes { kNo, kYes };
 
-/// Streams the points of one file in file order. Memory is bounded (about 2 MiB and the block), whatever the file's
-/// size. The extension decides the format: .ply, or .xyz .txt .asc .pts .csv for text; case does not matter.
+/// Streams the points of one scan in file order. Memory is bounded (about 2 MiB and the block), whatever the file's
+/// size. What is in the file decides the format, and its extension where that does not tell; gzip'd files are unpacked.
 class ScanReader {
  public:
   /// Opens the file and reads its header.
+  /// @param path             a file of one scan, or one scan of a file: "hall.ptx#2" (scan_path.hpp)
   /// @param read_attributes  kNo: coordinates only, attributes() is empty. What stands in a text file's other columns
-  /// is
-  ///                         checked all the same, so that a first pass over the coordinates finds every damaged line.
+  ///                         is checked all the same, so that a first pass over the coordinates finds every damaged
+  ///                         line.
   /// @throws InputError  naming file, place, problem and remedy
   explicit ScanReader(const std::filesystem::path& path, ReadAttributes read_attributes = ReadAttributes::kYes);
   ~ScanReader();
@@ -36,8 +40,18 @@ class ScanReader {
   /// @throws InvalidOptions  if max_points is 0
   bool read(PointBlock& block, std::size_t max_points = 65536);
 
-  std::uint64_t num_points() const;   ///< finite points so far
-  std::uint64_t num_dropped() const;  ///< points so far with a NaN or infinite coordinate, left out
+  std::uint64_t num_points() const;  ///< finite points so far
+  /// Records so far that were left out: a NaN or infinite coordinate, an empty cell of a grid, marked as invalid.
+  std::uint64_t num_dropped() const;
+
+  /// What the file says of the scan's place: maps raw coordinates into the frame of the file (PTX, E57). Not applied to
+  /// any point. nullopt where the format has none, or the file does not say.
+  /// @throws InputError  if it is not rigid to 1e-3
+  std::optional<Eigen::Isometry3d> header_pose() const;
+
+  /// What the file says of the coordinate system its points are in (LAS, E57): "EPSG:26917", well-known text, or what
+  /// else stands there. Results do not keep it. Empty where the file says nothing.
+  std::string coordinate_system() const;
 
  private:
   struct Impl;

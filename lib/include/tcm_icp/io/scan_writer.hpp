@@ -8,6 +8,9 @@
 
 namespace tcm_icp {
 
+/// Whether write_scan() knows the extension of this name.
+bool can_write_scan(const std::filesystem::path& path);
+
 /// A .ply gets binary little endian, double x y z and the attributes as they are; a text file (.xyz .txt .asc .pts
 /// .csv) a line of names behind '#' and one line of blanks-separated numbers a point, 17 significant digits.
 /// @throws InvalidInput  if the attributes' bytes do not fit the points, or the extension is another

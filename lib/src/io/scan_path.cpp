@@ -1,0 +1,89 @@
+#include "tcm_icp/io/scan_path.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <map>
+#include <string_view>
+#include <system_error>
+
+#include "open_scan.hpp"
+
+namespace tcm_icp {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The last `count` parts of a path.
+std::string tail(const fs::path& path, std::size_t count) {
+  std::vector<fs::path> parts(path.begin(), path.end());
+  fs::path out;
+  for (std::size_t i = parts.size() - std::min(count, parts.size()); i < parts.size(); ++i) out /= parts[i];
+  return out.generic_string();
+}
+
+/// Without the root, "." and "..": what may stand in a name.
+fs::path plain(const fs::path& path) {
+  std::error_code error;
+  fs::path absolute = fs::absolute(path, error);
+  return (error ? path : absolute).lexically_normal().relative_path();
+}
+
+}  // namespace
+
+ScanPath parse_scan_path(const fs::path& path) {
+  std::error_code ignored;
+  const std::string text = path.string();
+  const std::size_t mark = text.rfind('#');
+  if (mark == std::string::npos || fs::exists(path, ignored)) return {path};
+  const std::string_view word = std::string_view(text).substr(mark + 1);
+  if (word == "kitti") return {text.substr(0, mark), 0, BinLayout::kKitti};
+  if (word == "nuscenes") return {text.substr(0, mark), 0, BinLayout::kNuScenes};
+  std::size_t number = 0;
+  const char* const end = text.data() + text.size();
+  const auto [rest, error] = std::from_chars(text.data() + mark + 1, end, number);
+  if (error != std::errc() || rest != end || number == 0) return {path};
+  return {text.substr(0, mark), number, BinLayout::kNone};
+}
+
+std::vector<fs::path> scans_in(const fs::path& path) {
+  const ScanPath scan = parse_scan_path(path);
+  if (scan.number > 0 || scan.bin != BinLayout::kNone) return {path};
+  const std::size_t count = count_scans(scan.file);
+  if (count == 1) return {path};
+  std::vector<fs::path> scans;
+  for (std::size_t i = 1; i <= count; ++i) scans.emplace_back(path.string() + "#" + std::to_string(i));
+  return scans;
+}
+
+std::vector<std::string> scan_names(const std::vector<fs::path>& scans) {
+  std::vector<std::string> names;
+  std::map<std::string, std::vector<std::size_t>> by_name;
+  std::vector<fs::path> paths;
+  for (const auto& scan : scans) {
+    const ScanPath parsed = parse_scan_path(scan);
+    paths.push_back(parsed.bin == BinLayout::kNone ? scan : parsed.file);
+  }
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    names.push_back(paths[i].filename().string());
+    by_name[names.back()].push_back(i);
+  }
+  for (const auto& [name, twins] : by_name) {
+    std::map<std::string, std::size_t> longer;
+    for (std::size_t length = 2; twins.size() > 1 && longer.size() < twins.size(); ++length) {
+      longer.clear();
+      std::size_t longest = 0;
+      for (const std::size_t i : twins) {
+        const fs::path path = plain(paths[i]);
+        longer.emplace(tail(path, length), i);
+        longest = std::max<std::size_t>(longest, static_cast<std::size_t>(std::distance(path.begin(), path.end())));
+      }
+      if (length > longest) break;  // named twice: nothing tells them apart
+    }
+    if (longer.size() == twins.size()) {
+      for (const auto& [text, i] : longer) names[i] = text;
+    }
+  }
+  return names;
+}
+
+}  // namespace tcm_icp
