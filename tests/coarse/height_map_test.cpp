@@ -53,6 +53,38 @@ TEST(HeightMap, IsTheSameWhicheverWayTheScanIsTurned) {
   EXPECT_GT((a.T_map_scan.inverse().translation() - b.T_map_scan.inverse().translation()).norm(), 0.5 * a.radius_m);
 }
 
+// A strip across the map and a few cells apart from it: most rows and columns hold few cells, some none.
+TEST(HeightMap, HasDetailInProportionToTheHeightAboveTheMeanOfWhatWasSeenNearby) {
+  Rng rng = make_stream(4, "test");
+  Points points;
+  for (const auto& p : random_points(400, 60, rng)) points.emplace_back(p.x(), p.x() / 2 + p.y() / 20, p.z());
+  for (const auto& p : random_points(8, 60, rng)) points.push_back(p);
+  HeightMapOptions options;
+  options.smoothing_cells = 4;
+  options.clip_sigma = 1e6;  // nothing is cut off
+  const HeightMap map = make_height_map({points, {}}, find_footprint(points, Eigen::Vector3d::UnitZ()), 1.0, options);
+  constexpr int kReach = 12;  // three standard deviations
+  double products = 0, squares = 0;
+  std::vector<double> above(map.mask.size(), 0);
+  for (int i = 0; i < map.size * map.size; ++i) {
+    if (map.mask[static_cast<std::size_t>(i)] == 0) continue;
+    double sum = 0, weights = 0;
+    for (int j = 0; j < map.size * map.size; ++j) {
+      const int rows = j / map.size - i / map.size, columns = j % map.size - i % map.size;
+      if (map.mask[static_cast<std::size_t>(j)] == 0 || std::max(std::abs(rows), std::abs(columns)) > kReach) continue;
+      const double weight = std::exp(-(rows * rows + columns * columns) / 32.0);
+      sum += weight * map.height[static_cast<std::size_t>(j)];
+      weights += weight;
+    }
+    const auto k = static_cast<std::size_t>(i);
+    above[k] = map.height[k] - sum / weights;
+    products += above[k] * map.detail[k];
+    squares += above[k] * above[k];
+  }
+  ASSERT_GT(squares, 1);
+  for (std::size_t k = 0; k < above.size(); ++k) EXPECT_NEAR(map.detail[k], products / squares * above[k], 1e-4);
+}
+
 TEST(HeightMap, HasDetailOfVarianceOneWhereSomethingWasSeen) {
   Rng rng = make_stream(2, "test");
   const Points points = random_points(20000, 30, rng);

@@ -63,6 +63,17 @@ TEST(FreeSpace, ARoomWithinAnotherIsSeenThrough) {
   EXPECT_GT(e.excess(), 1);
 }
 
+TEST(FreeSpace, ViolationsAreTheSameWithoutTheMatches) {
+  const Seen a(kLeft, {3, 2, 1.5}), b(kRight, {7.5, 2, 1.5});
+  const Isometry3d T_a_b(Translation3d(-4.5, 0, 0));
+  const FreeSpaceEvidence all = measure_free_space(a, b, T_a_b), alone = measure_violations(a, b, T_a_b);
+  ASSERT_GT(all.num_violating, 0u);
+  ASSERT_GT(all.num_matches, 0u);
+  EXPECT_EQ(alone.num_points, all.num_points);
+  EXPECT_EQ(alone.num_violating, all.num_violating);
+  EXPECT_EQ(alone.num_matches, 0u);
+}
+
 TEST(FreeSpace, IsTheSameTheOtherWayRoundInAnyFrameAndUnit) {
   Rng rng = make_stream(1, "free_space_test");
   const Seen a(kLeft, {3, 2, 1.5}), b(kRight, {7.5, 2, 1.5});

@@ -55,6 +55,8 @@ std::vector<BlockPeak> best_blocks(const Image& agreement, const Image& shared, 
   std::vector<BlockPeak> found;
   std::vector<float> highest(n);
   for (std::size_t i = 0; i < low; ++i) {
+    const auto in_row = shared.begin() + static_cast<std::ptrdiff_t>(i * low);
+    if (std::none_of(in_row, in_row + static_cast<std::ptrdiff_t>(low), [&](float c) { return c >= least; })) continue;
     const float* rows = agreement.data() + kMaskStep * i * n;
     std::copy(rows, rows + n, highest.begin());
     for (std::size_t r = 1; r < kMaskStep; ++r) {

@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <string>
 
 #include "envelope.hpp"
@@ -25,44 +26,75 @@ std::vector<float> half_gaussian(double sigma) {
   return weights;
 }
 
-// out += weight * in, shifted by `offset` rows.
-void add_rows(const std::vector<float>& in, int size, int offset, float weight, std::vector<float>& out) {
-  const int first = std::max(0, -offset), last = std::min(size, size - offset);
-  for (int r = first; r < last; ++r) {
-    const float* from = in.data() + static_cast<std::ptrdiff_t>(r + offset) * size;
-    float* to = out.data() + static_cast<std::ptrdiff_t>(r) * size;
-    for (int c = 0; c < size; ++c) to[c] += weight * from[c];
-  }
-}
+// Where a row holds anything but zeros.
+struct Extent {
+  int first = 0, last = 0;
+};
 
-std::vector<float> transposed(const std::vector<float>& in, int size) {
-  std::vector<float> out(in.size());
-  const auto n = static_cast<std::size_t>(size);
-  for (std::size_t r = 0; r < n; ++r) {
-    for (std::size_t c = 0; c < n; ++c) out[c * n + r] = in[r * n + c];
+std::vector<Extent> extents_of_rows(const std::vector<float>& in, int size) {
+  std::vector<Extent> out(static_cast<std::size_t>(size));
+  for (int r = 0; r < size; ++r) {
+    const float* row = in.data() + static_cast<std::ptrdiff_t>(r) * size;
+    const auto filled = [](float value) { return value != 0; };
+    const float* first = std::find_if(row, row + size, filled);
+    if (first == row + size) continue;
+    const float* last = std::find_if(std::reverse_iterator(row + size), std::reverse_iterator(first), filled).base();
+    out[static_cast<std::size_t>(r)] = {static_cast<int>(first - row), static_cast<int>(last - row)};
   }
   return out;
+}
+
+// out += weight * in, shifted by `offset` rows. Zeros add nothing, and most of a map was not seen.
+void add_rows(const std::vector<float>& in, const std::vector<Extent>& extents, int size, int offset, float weight,
+              std::vector<float>& out) {
+  const int first = std::max(0, -offset), last = std::min(size, size - offset);
+  for (int r = first; r < last; ++r) {
+    const Extent extent = extents[static_cast<std::size_t>(r + offset)];
+    const float* from = in.data() + static_cast<std::ptrdiff_t>(r + offset) * size;
+    float* to = out.data() + static_cast<std::ptrdiff_t>(r) * size;
+    for (int c = extent.first; c < extent.last; ++c) to[c] += weight * from[c];
+  }
 }
 
 std::vector<float> smooth_columns(const std::vector<float>& in, int size, const std::vector<float>& weights) {
   std::vector<float> out(in.size(), 0.0F);
+  const std::vector<Extent> extents = extents_of_rows(in, size);
   for (int k = 0; k < static_cast<int>(weights.size()); ++k) {
-    add_rows(in, size, k, weights[static_cast<std::size_t>(k)], out);
-    if (k > 0) add_rows(in, size, -k, weights[static_cast<std::size_t>(k)], out);
+    add_rows(in, extents, size, k, weights[static_cast<std::size_t>(k)], out);
+    if (k > 0) add_rows(in, extents, size, -k, weights[static_cast<std::size_t>(k)], out);
   }
   return out;
 }
 
-// Transposed: rows become columns, and the next call turns them back.
-std::vector<float> smooth(const std::vector<float>& in, int size, const std::vector<float>& weights) {
-  const auto once = transposed(smooth_columns(in, size, weights), size);
-  return transposed(smooth_columns(once, size, weights), size);
+// Where each row of `mask` has cells: elsewhere nobody asks for the sums.
+std::vector<float> smooth_rows(const std::vector<float>& in, int size, const std::vector<float>& weights,
+                               const std::vector<float>& mask) {
+  std::vector<float> out(in.size(), 0.0F);
+  const std::vector<Extent> asked = extents_of_rows(mask, size);
+  for (int r = 0; r < size; ++r) {
+    const float* from = in.data() + static_cast<std::ptrdiff_t>(r) * size;
+    float* to = out.data() + static_cast<std::ptrdiff_t>(r) * size;
+    const auto [first, last] = asked[static_cast<std::size_t>(r)];
+    for (int k = 0; k < static_cast<int>(weights.size()); ++k) {
+      const float weight = weights[static_cast<std::size_t>(k)];
+      for (int c = first; c < std::min(last, size - k); ++c) to[c] += weight * from[c + k];
+      if (k == 0) continue;
+      for (int c = std::max(first, k); c < last; ++c) to[c] += weight * from[c - k];
+    }
+  }
+  return out;
+}
+
+// Sums over the cells nearby, at the cells of the mask.
+std::vector<float> smooth(const std::vector<float>& in, int size, const std::vector<float>& weights,
+                          const std::vector<float>& mask) {
+  return smooth_rows(smooth_columns(in, size, weights), size, weights, mask);
 }
 
 // Values less their mean over the seen cells nearby, clipped, of variance 1.
 std::vector<float> find_detail(const std::vector<float>& values, const HeightMap& map, const std::vector<float>& seen,
                                const std::vector<float>& weights, float clip_sigma) {
-  const auto sum = smooth(values, map.size, weights);
+  const auto sum = smooth(values, map.size, weights, map.mask);
   std::vector<float> detail(values.size(), 0.0F);
   double squares = 0;
   for (std::size_t k = 0; k < values.size(); ++k) {
@@ -165,7 +197,7 @@ HeightMap make_height_map(const Cloud& cloud, const Footprint& footprint, double
   }
   map.num_seen = static_cast<int>(std::count(map.mask.begin(), map.mask.end(), 1.0F));
   const auto weights = half_gaussian(options.smoothing_cells);
-  const auto seen = smooth(map.mask, map.size, weights);
+  const auto seen = smooth(map.mask, map.size, weights, map.mask);
   const auto clip_sigma = static_cast<float>(options.clip_sigma);
   map.detail = find_detail(map.height, map, seen, weights, clip_sigma);
   std::vector<float> structure(n * n);

@@ -114,16 +114,24 @@ Eigen::Isometry3d PairGraph::mean_pose(std::size_t scan, const Eigen::Isometry3d
 
 std::vector<Eigen::Isometry3d> PairGraph::poses_of(std::size_t scan, const Component& component) const {
   std::vector<Eigen::Isometry3d> out;
+  Points means;  // of the scan's points at those poses
+  const double known_m = same_m_ / 8;
   for (const std::size_t k : pairs_of(scan)) {
     const ComparedPair& pair = pairs_[k];
     const std::size_t other = pair.a == scan ? pair.b : pair.a;
     if (!component.has(other)) continue;
     for (const PoseHypothesis& h : pair.hypotheses) {
       const Eigen::Isometry3d T = *component.T_reference_scan[other] * (pair.a == scan ? h.T_a_b.inverse() : h.T_a_b);
-      const bool known = std::any_of(out.begin(), out.end(), [&](const Eigen::Isometry3d& U) {
-        return rms_displacement(U.inverse() * T, moments_[scan]) < same_m_ / 8;
-      });
-      if (!known) out.push_back(T);
+      const Eigen::Vector3d mean = T * moments_[scan].mean;
+      bool known = false;
+      for (std::size_t i = 0; i < out.size() && !known; ++i) {
+        // Points are farther apart than their mean.
+        known = (means[i] - mean).squaredNorm() < known_m * known_m &&
+                rms_displacement(out[i].inverse() * T, moments_[scan]) < known_m;
+      }
+      if (known) continue;
+      out.push_back(T);
+      means.push_back(mean);
     }
   }
   return out;

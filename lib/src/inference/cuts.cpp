@@ -140,11 +140,13 @@ Cut measure_cut(const PairGraph& graph, const Component& component, std::vector<
   for (const ComparedPair* pair : across) {
     const std::size_t scan = is_moved[pair->b] ? pair->b : pair->a, fixed = scan == pair->b ? pair->a : pair->b;
     const Eigen::Isometry3d &T_scan = *component.T_reference_scan[scan], &T_fixed = *component.T_reference_scan[fixed];
+    const Eigen::Vector3d mean = T_scan * graph.mean_of(scan);
     for (const PoseHypothesis& h : pair->hypotheses) {
       const Eigen::Isometry3d T_fixed_scan = scan == pair->b ? h.T_a_b : h.T_a_b.inverse();
       const Eigen::Isometry3d motion = T_fixed * T_fixed_scan * T_scan.inverse();
+      const Eigen::Vector3d moved_mean = motion * mean;
       const bool is_known = std::any_of(known.begin(), known.end(), [&](const Eigen::Isometry3d& m) {
-        return graph.same_pose(scan, m * T_scan, motion * T_scan);
+        return graph.same_mean(m * mean, moved_mean) && graph.same_pose(scan, m * T_scan, motion * T_scan);
       });
       if (is_known) continue;
       known.push_back(motion);

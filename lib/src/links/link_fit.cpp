@@ -19,7 +19,7 @@ constexpr int kMaxLpSolves = 20;  // a fit of a right pose takes ten; others go 
 constexpr double kFirstDistance = 8, kLastDistance = 2, kDistanceShrink = 0.6;
 
 bool hopeless(const PreparedScan& target, const PreparedScan& source, const PoseCandidate& candidate) {
-  const FreeSpaceEvidence evidence = free_space(target, source, candidate.T_target_source);
+  const FreeSpaceEvidence evidence = violations(target, source, candidate.T_target_source);
   const double most = candidate.method == CoarseMethod::kSlide ? kHopelessOfSlide : kHopelessViolations;
   return evidence.tells() && evidence.violation_share() > most;
 }

@@ -38,4 +38,8 @@ FreeSpaceEvidence free_space(const PreparedScan& a, const PreparedScan& b, const
   return measure_free_space({a.pyramid.level(0), a.sight}, {b.pyramid.level(0), b.sight}, T_a_b);
 }
 
+FreeSpaceEvidence violations(const PreparedScan& a, const PreparedScan& b, const Eigen::Isometry3d& T_a_b) {
+  return measure_violations({a.pyramid.level(0), a.sight}, {b.pyramid.level(0), b.sight}, T_a_b);
+}
+
 }  // namespace tcm_icp

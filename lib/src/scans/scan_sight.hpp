@@ -24,4 +24,7 @@ void make_sights(const std::vector<std::optional<Viewpoint>>& viewpoints, const 
 /// measure_free_space() of a pair. Counts are 0 where neither has a viewpoint.
 FreeSpaceEvidence free_space(const PreparedScan& a, const PreparedScan& b, const Eigen::Isometry3d& T_a_b);
 
+/// measure_violations() of a pair.
+FreeSpaceEvidence violations(const PreparedScan& a, const PreparedScan& b, const Eigen::Isometry3d& T_a_b);
+
 }  // namespace tcm_icp

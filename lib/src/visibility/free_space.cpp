@@ -56,9 +56,8 @@ std::vector<std::size_t> pick(const Cloud& cloud) {
   return out;
 }
 
-void look_both(const SightedScan& viewer, const SightedScan& other, const std::vector<std::size_t>& picked,
+void look_from(const SightedScan& viewer, const SightedScan& other, const std::vector<std::size_t>& picked,
                const Eigen::Isometry3d& T_viewer_other, FreeSpaceEvidence& evidence) {
-  if (!viewer.sight.sees_space()) return;
   Cloud moved;
   for (const std::size_t i : picked) {
     moved.points.push_back(T_viewer_other * other.surfaces.cloud.points[i]);
@@ -78,7 +77,6 @@ void look_both(const SightedScan& viewer, const SightedScan& other, const std::v
 
 void compare_sides(const SightedScan& a, const SightedScan& b, const std::vector<std::size_t>& picked,
                    const Eigen::Isometry3d& T_a_b, FreeSpaceEvidence& evidence) {
-  if (!a.sight.knows_sides() || !b.sight.knows_sides()) return;
   const double voxel_m = a.surfaces.voxel_size_m;
   for (const std::size_t i : picked) {
     const Eigen::Vector3d p = T_a_b * b.surfaces.cloud.points[i];
@@ -113,14 +111,17 @@ FreeSpaceEvidence& FreeSpaceEvidence::operator+=(const FreeSpaceEvidence& other)
 }
 
 FreeSpaceEvidence measure_free_space(const SightedScan& a, const SightedScan& b, const Eigen::Isometry3d& T_a_b) {
+  FreeSpaceEvidence evidence = measure_violations(a, b, T_a_b);
+  if (!a.sight.knows_sides() || !b.sight.knows_sides()) return evidence;
+  compare_sides(a, b, pick(b.surfaces.cloud), T_a_b, evidence);
+  compare_sides(b, a, pick(a.surfaces.cloud), T_a_b.inverse(), evidence);
+  return evidence;
+}
+
+FreeSpaceEvidence measure_violations(const SightedScan& a, const SightedScan& b, const Eigen::Isometry3d& T_a_b) {
   FreeSpaceEvidence evidence;
-  const bool sides = a.sight.knows_sides() && b.sight.knows_sides();
-  if (!a.sight.sees_space() && !b.sight.sees_space() && !sides) return evidence;
-  const std::vector<std::size_t> picked_a = pick(a.surfaces.cloud), picked_b = pick(b.surfaces.cloud);
-  look_both(a, b, picked_b, T_a_b, evidence);
-  look_both(b, a, picked_a, T_a_b.inverse(), evidence);
-  compare_sides(a, b, picked_b, T_a_b, evidence);
-  compare_sides(b, a, picked_a, T_a_b.inverse(), evidence);
+  if (a.sight.sees_space()) look_from(a, b, pick(b.surfaces.cloud), T_a_b, evidence);
+  if (b.sight.sees_space()) look_from(b, a, pick(a.surfaces.cloud), T_a_b.inverse(), evidence);
   return evidence;
 }
 
