@@ -300,7 +300,7 @@ void print_register_help(std::ostream& out) {
          "Puts overlapping LiDAR scans (PLY, LAS, E57, PCD, PTX, PTS, text), wherever each lies, into the frame of\n"
          "one of them. SCAN is a file, a folder, a pattern, or one scan of a file (hall.ptx#2). DIR receives "
          "poses.json,\n"
-         "transforms/, registered.ply, report.json and report.html. Lengths are in the unit of the scans.\n\n"
+         "poses/, transforms/, registered.ply, report.json and report.html. Lengths are in the unit of the scans.\n\n"
       << command_line_only(o, config) << '\n'
       << configurable(o, choices) << "\nExample: tcm-icp register datasets/town/*.ply --out out/town\n";
 }

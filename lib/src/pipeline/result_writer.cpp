@@ -2,11 +2,13 @@
 
 #include <fstream>
 
+#include "pipeline/pose_graph_edges.hpp"
 #include "pipeline/stage_clock.hpp"
 #include "report/report_html.hpp"
 #include "tcm_icp/core/error.hpp"
 #include "tcm_icp/core/parallel.hpp"
 #include "tcm_icp/io/output_folder.hpp"
+#include "tcm_icp/io/pose_export.hpp"
 #include "tcm_icp/io/pose_io.hpp"
 #include "tcm_icp/io/registered_ply_writer.hpp"
 #include "tcm_icp/io/scan_reader.hpp"
@@ -84,6 +86,8 @@ void write_result(const fs::path& folder, bool overwrite, const std::vector<fs::
     fs::create_directories(file.parent_path());  // "Setup1/scan.ply" is the name of one of several scan.ply
     write_transform(file, pose.T_reference_scan);
   }
+  fs::create_directory(output.work() / "poses");
+  write_pose_exports(output.work() / "poses", result.poses, pose_graph_edges(result));
   clock.end();
   const Json report = report_object(result, options, context, description);
   write_text(output.work() / "report.json", json_text(report));

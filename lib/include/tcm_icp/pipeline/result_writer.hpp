@@ -1,5 +1,5 @@
 #pragma once
-// The files of a result: poses.json, transforms/, registered.ply, report.json, report.html.
+// The files of a result: poses.json, poses/, transforms/, registered.ply, report.json, report.html.
 
 #include <filesystem>
 #include <string>
