@@ -165,7 +165,8 @@ po::options_description sampling_options(PipelineOptions& p) {
 po::options_description cloud_options(OutputOptions& o, Choices& c) {
   po::options_description clouds("Clouds written");
   clouds.add_options()("format", value(c.format), "ply, las (1.4), pcd or text: of the merged cloud and of --each")(
-      "each", po::bool_switch(&o.each), "every registered scan in the common frame in a file of its own, too: scans/")(
+      "each", po::bool_switch(&o.each)->default_value(o.each),
+      "every registered scan in the common frame in a file of its own, too: scans/")(
       "voxel", value(c.voxel),
       "length, in the unit of the scans: the merged cloud keeps one point in each cube of this edge; 0: all points")(
       "colour", value(c.colour), "keep: the scans' own, by scan where none has any; scan: by scan");
@@ -182,7 +183,7 @@ po::options_description configurable(RegisterOptions& o, Choices& c) {
   add_comparison_options(o, c, main);
   main.add_options()("reference", value(p.reference),
                      "file of the reference scan; empty: the correspondence graph chooses")(
-      "level", po::bool_switch(&p.level),
+      "level", po::bool_switch(&p.level)->default_value(p.level),
       "z points up in every scan, within 10 degrees: links are searched upright only")(
       "merge-order", value(c.merge_order),
       "which scan is merged next: tcm (as the profile measures it), paper-tcm, robust-tcm, overlap, file or random")(

@@ -52,6 +52,7 @@ TEST_F(RegisterClouds, EveryFormatHasTheSamePoints) {
 TEST_F(RegisterClouds, VoxelKeepsTheFirstOfItsPoints) {
   register_to("all", {});
   register_to("thin", {"--voxel", "0.4"});
+  EXPECT_EQ(read_json(file("thin/report.json"))["options"]["voxel_m"], 0.4);
   const WholeScan all = read_whole(file("all/registered.ply")), thin = read_whole(file("thin/registered.ply"));
   std::set<std::array<double, 3>> voxels;
   std::size_t at = 0;

@@ -330,6 +330,24 @@ TEST(CloudFormats, LasRefusesWhatItHasNoRoomFor) {
   EXPECT_NE(far.find("round them to 0.002"), std::string::npos) << far;
 }
 
+TEST(CloudFormats, LasShowsIntensitiesOfOtherTypesScaledAndKeepsThemBeside) {
+  const TempFolder folder;
+  const std::vector<Attribute> attributes = {{"intensity", kFloat32}};
+  RegisteredCloudOptions options = in_format(CloudFormat::kLas);
+  options.most_intensity = 1;
+  const auto path = folder.path() / "out.las";
+  RegisteredCloudWriter writer(path, {attributes}, options);
+  writer.write(0, {Points(3, Eigen::Vector3d::Zero()), packed(joined(0.25F, 1.0F, 7.5F))}, attributes,
+               Eigen::Isometry3d::Identity());
+  writer.finish();
+  const WholeScan scan = read_whole(path);
+  EXPECT_EQ(attribute_of<std::uint16_t>(scan, 0, "intensity"), 16384);
+  EXPECT_EQ(attribute_of<std::uint16_t>(scan, 1, "intensity"), 65535);
+  EXPECT_EQ(attribute_of<std::uint16_t>(scan, 2, "intensity"), 65535);
+  EXPECT_EQ(attribute_of<float>(scan, 0, "input_intensity"), 0.25F);
+  EXPECT_EQ(attribute_of<float>(scan, 2, "input_intensity"), 7.5F);
+}
+
 TEST(CloudFormats, LasNamesThatAreTooLongOrTakenAreMadeUnique) {
   const TempFolder folder;
   const std::string base(32, 'n');

@@ -20,10 +20,10 @@ namespace tcm_icp {
 namespace {
 
 constexpr std::size_t kHeaderSize = 375, kRecordHeader = 54, kExtraEntry = 192, kMostExtras = 65535 / kExtraEntry;
-constexpr std::size_t kSourceAt = 20, kColourAt = 30;  // in a point
+constexpr std::size_t kIntensityAt = 12, kSourceAt = 20, kColourAt = 30;  // in a point
 constexpr const char* kRemedy = "use --format ply";
 
-enum class Rule { kCopy, kBits, kAngle, kColourByte, kScan };
+enum class Rule { kCopy, kBits, kAngle, kColourByte, kScan, kIntensity };
 
 /// A field of a point, and the column that fits it.
 struct LasField {
@@ -34,7 +34,7 @@ struct LasField {
   unsigned mask = 0, shift = 0;
 };
 
-constexpr std::array<LasField, 13> kFields{{{"intensity", ScalarType::kUInt16, Rule::kCopy, 12},
+constexpr std::array<LasField, 13> kFields{{{"intensity", ScalarType::kUInt16, Rule::kCopy, kIntensityAt},
                                             {"return_number", ScalarType::kUInt8, Rule::kBits, 14, 15, 0},
                                             {"number_of_returns", ScalarType::kUInt8, Rule::kBits, 14, 15, 4},
                                             {"classification_flags", ScalarType::kUInt8, Rule::kBits, 15, 15, 0},
@@ -69,7 +69,11 @@ std::string digits(double value) {
 class LasSink : public CloudSink {
  public:
   LasSink(std::filesystem::path path, const RecordLayout& layout, const RegisteredCloudOptions& options)
-      : CloudSink(std::move(path)), layout_(layout), source_id_(options.point_source_id) {
+      : CloudSink(std::move(path)),
+        layout_(layout),
+        source_id_(options.point_source_id),
+        least_intensity_(options.least_intensity),
+        most_intensity_(options.most_intensity) {
     scale_ = choose_las_scale(options.box);
     if (scale_.step > options.largest_step && scale_.is_by_extent) {
       throw OutputError(this->path(),
@@ -106,7 +110,10 @@ class LasSink : public CloudSink {
     }
     std::vector<RecordColumn> extras;
     for (std::size_t i = layout_.first_attribute(); i < columns.size(); ++i) {
-      if (!add_field(columns[i])) extras.push_back(columns[i]);
+      if (add_field(columns[i])) continue;
+      extras.push_back(columns[i]);
+      // To look at; the extra bytes keep what it is.
+      if (columns[i].name == "intensity") add_scaled_intensity(columns[i]);
     }
     point_format_ = has_nir_ ? 8 : 7;
     point_size_ = las_point_size(point_format_);
@@ -130,6 +137,11 @@ class LasSink : public CloudSink {
     has_source_ = has_source_ || at->to == kSourceAt;
     copies_.push_back({at->rule, column.offset, at->to, scalar_size(column.type), at->mask, at->shift, at->name});
     return true;
+  }
+
+  void add_scaled_intensity(const RecordColumn& column) {
+    intensity_type_ = column.type;
+    copies_.push_back({Rule::kIntensity, column.offset, kIntensityAt, 2, 0, 0, column.name});
   }
 
   /// At most 32 bytes, as the format has it; not the name of a field or of other extra bytes.
@@ -189,6 +201,13 @@ class LasSink : public CloudSink {
       }
       case Rule::kColourByte: {  // 255 becomes 65535, as the standard asks for
         const auto value = static_cast<std::uint16_t>(257 * std::to_integer<unsigned>(*from));
+        std::memcpy(to, &value, sizeof value);
+        break;
+      }
+      case Rule::kIntensity: {
+        const double share =
+            (load_scalar(from, intensity_type_) - least_intensity_) / (most_intensity_ - least_intensity_);
+        const auto value = static_cast<std::uint16_t>(std::round(65535 * std::clamp(share, 0.0, 1.0)));
         std::memcpy(to, &value, sizeof value);
         break;
       }
@@ -256,6 +275,8 @@ class LasSink : public CloudSink {
 
   RecordLayout layout_;
   std::uint16_t source_id_;
+  double least_intensity_, most_intensity_;
+  ScalarType intensity_type_ = ScalarType::kUInt16;
   LasScale scale_;
   std::vector<Copy> copies_;
   std::vector<Attribute> extras_;

@@ -5,7 +5,9 @@
 #include <functional>
 #include <optional>
 #include <set>
+#include <tuple>
 
+#include "pipeline/value_range.hpp"
 #include "pipeline/voxel_thinner.hpp"
 #include "tcm_icp/core/error.hpp"
 #include "tcm_icp/core/parallel.hpp"
@@ -78,20 +80,34 @@ class CloudOutput {
     }
   }
 
+  /// Whether intensities have to be scaled to fit the field that LAS has for them.
+  bool scales_intensity() const {
+    if (options_.format != CloudFormat::kLas) return false;
+    return std::any_of(attributes_.begin(), attributes_.end(), [](const std::vector<Attribute>& attributes) {
+      return std::any_of(attributes.begin(), attributes.end(), [](const Attribute& attribute) {
+        return attribute.name == "intensity" && attribute.type != ScalarType::kUInt16;
+      });
+    });
+  }
+
   void measure_boxes() {
+    const bool scales = scales_intensity();
+    ValueRange intensity("intensity");
     double smallest_extent = std::numeric_limits<double>::infinity();
     boxes_.resize(paths_.size());
     for (std::size_t i = 0; i < paths_.size(); ++i) {
       if (!is_registered(i)) continue;
       const Eigen::Isometry3d& T = result_.poses[i].T_reference_scan;
-      stream(i, ReadAttributes::kNo, [&](const PointBlock& block) {
+      stream(i, scales ? ReadAttributes::kYes : ReadAttributes::kNo, [&](const PointBlock& block) {
         for (const auto& point : block.points) boxes_[i].extend(Eigen::Vector3d(T * point));
+        if (scales) intensity.add(block, attributes_[i]);
       });
       if (boxes_[i].isEmpty()) continue;
       smallest_extent = std::min(smallest_extent, boxes_[i].sizes().maxCoeff());
       cloud_.box.extend(boxes_[i]);
     }
     cloud_.largest_step = kLargestStep * smallest_extent;
+    if (scales) std::tie(cloud_.least_intensity, cloud_.most_intensity) = las_intensity_range(intensity);
   }
 
   /// In how many parts the voxels have to be gone through.

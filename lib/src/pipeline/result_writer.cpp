@@ -26,6 +26,13 @@ void write_text(const fs::path& path, const std::string& text) {
   if (!out) throw OutputError(path, "cannot be written", "check that the disk is not full");
 }
 
+void add_options(const OutputOptions& clouds, Json& to) {
+  to["format"] = std::string(extension_of(clouds.format)).substr(1);
+  to["each"] = clouds.each;
+  to["voxel_m"] = clouds.voxel_m;
+  to["colour"] = clouds.colour == CloudColour::kKeep ? "keep" : "scan";
+}
+
 }  // namespace
 
 void check_output_folder(const fs::path& folder, bool overwrite) {
@@ -50,7 +57,8 @@ void write_result(const fs::path& folder, bool overwrite, const std::vector<fs::
   fs::create_directory(output.work() / "poses");
   write_pose_exports(output.work() / "poses", result.poses, pose_graph_edges(result));
   clock.end();
-  const Json report = report_object(result, options, context, description);
+  Json report = report_object(result, options, context, description);
+  add_options(clouds, report["options"]);
   write_text(output.work() / "report.json", json_text(report));
   write_text(output.work() / "report.html", report_html(report));
   output.commit();

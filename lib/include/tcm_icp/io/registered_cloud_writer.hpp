@@ -37,6 +37,8 @@ struct RegisteredCloudOptions {
   Eigen::AlignedBox3d box = Eigen::AlignedBox3d();
   /// [unit of the scans] How coarsely coordinates may be rounded: LAS refuses, PCD turns from floats to doubles.
   double largest_step = std::numeric_limits<double>::infinity();
+  /// LAS: what becomes 0 and 65535 in the field of that name where intensities are not its type.
+  double least_intensity = 0, most_intensity = 65535;
 };
 
 /// Whether a PCD of these points has coordinates as doubles, which PCL does not take for its points.
