@@ -65,7 +65,7 @@ int cmd_register(const Arguments& arguments) {
   report_coordinate_systems(paths, context);
 
   PipelineResult result = run_method(o, paths, guess, context);
-  write_result(o.out, o.force, paths, result, o.pipeline, context,
+  write_result(o.out, o.force, paths, result, o.pipeline, o.clouds, context,
                {kVersion, command_line("register", arguments), o.initial_poses, started});
   console.finish();
   if (!o.quiet) print_register_table(result, std::cerr);

@@ -4,6 +4,8 @@
 #include <boost/program_options/parsers.hpp>
 #include <boost/program_options/positional_options.hpp>
 #include <boost/program_options/value_semantic.hpp>
+#include <charconv>
+#include <cmath>
 #include <fstream>
 #include <iomanip>
 #include <limits>
@@ -69,9 +71,18 @@ constexpr Names<Refinement, 5> kRefinements{"refinement",
                                               {"annealing", Refinement::kAnnealing},
                                               {"both", Refinement::kDescentThenAnnealing}}}};
 
+constexpr Names<CloudFormat, 4> kFormats{"format",
+                                         {{{"ply", CloudFormat::kPly},
+                                           {"las", CloudFormat::kLas},
+                                           {"pcd", CloudFormat::kPcd},
+                                           {"text", CloudFormat::kText}}}};
+constexpr Names<CloudColour, 2> kColours{"colour", {{{"keep", CloudColour::kKeep}, {"scan", CloudColour::kScan}}}};
+
 // What the command line holds as text before it becomes an enumeration.
 struct Choices {
   std::string profile, solver, outliers, refinement, formulation, merge_order, method = "tcm";
+  std::string voxel = "0", format = kFormats.name(OutputOptions{}.format),
+              colour = kColours.name(OutputOptions{}.colour);
 
   explicit Choices(const PipelineOptions& p)
       : profile(kProfiles.name(p.profile)),
@@ -90,6 +101,21 @@ struct Choices {
     p.merge_order = kMergeOrders.parse(merge_order);
   }
 };
+
+std::string shortest_digits(double value) {
+  std::array<char, 32> text;
+  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
+}
+
+/// "5cm" is a likely mistake, so the error tells the unit.
+double parse_voxel(const std::string& text) {
+  double length = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), length);
+  if (error == std::errc() && end == text.data() + text.size() && std::isfinite(length) && length >= 0) return length;
+  throw InvalidOptions("--voxel '" + text +
+                       "': give a length of at least 0 as a bare number, in the unit of the scans (0.05 for 5 cm where "
+                       "that is the metre; 0: all points)");
+}
 
 template <typename T>
 auto* value(T& target) {
@@ -136,6 +162,17 @@ po::options_description sampling_options(PipelineOptions& p) {
   return sampling;
 }
 
+po::options_description cloud_options(OutputOptions& o, Choices& c) {
+  po::options_description clouds("Clouds written");
+  clouds.add_options()("format", value(c.format), "ply, las (1.4), pcd or text: of the merged cloud and of --each")(
+      "each", po::bool_switch(&o.each)->default_value(o.each),
+      "every registered scan in the common frame in a file of its own, too: scans/")(
+      "voxel", value(c.voxel),
+      "length, in the unit of the scans: the merged cloud keeps one point in each cube of this edge; 0: all points")(
+      "colour", value(c.colour), "keep: the scans' own, by scan where none has any; scan: by scan");
+  return clouds;
+}
+
 // Options that may stand in a file, too.
 po::options_description configurable(RegisterOptions& o, Choices& c) {
   PipelineOptions& p = o.pipeline;
@@ -146,7 +183,7 @@ po::options_description configurable(RegisterOptions& o, Choices& c) {
   add_comparison_options(o, c, main);
   main.add_options()("reference", value(p.reference),
                      "file of the reference scan; empty: the correspondence graph chooses")(
-      "level", po::bool_switch(&p.level),
+      "level", po::bool_switch(&p.level)->default_value(p.level),
       "z points up in every scan, within 10 degrees: links are searched upright only")(
       "merge-order", value(c.merge_order),
       "which scan is merged next: tcm (as the profile measures it), paper-tcm, robust-tcm, overlap, file or random")(
@@ -171,7 +208,7 @@ po::options_description configurable(RegisterOptions& o, Choices& c) {
       "the same, at the end; cooling is geometric")("adjustment.lp-steps", value(p.adjustment.lp_steps),
                                                     "joint linear programs over all poses; 0: none")(
       "adjustment.steps", value(p.adjustment.steps), "joint least-squares steps of all poses after them; 0: none");
-  main.add(outlier_options(p, c)).add(sampling_options(p)).add(placement);
+  main.add(cloud_options(o.clouds, c)).add(outlier_options(p, c)).add(sampling_options(p)).add(placement);
   return main;
 }
 
@@ -262,6 +299,10 @@ RegisterOptions parse_register_options(const Arguments& arguments) {
   if (map.count("config") != 0) read_config(map["config"].as<std::string>(), file_options, map);
   po::notify(map);
   o.method = kMethods.parse(choices.method);
+  o.clouds.format = kFormats.parse(choices.format);
+  o.clouds.colour = kColours.parse(choices.colour);
+  o.clouds.voxel_m = parse_voxel(choices.voxel);
+  o.clouds.validate();
   if (o.method != Method::kTcm) use_conventional_defaults(map, choices);
   finish(o, choices);
   return o;
@@ -300,7 +341,7 @@ void print_register_help(std::ostream& out) {
          "Puts overlapping LiDAR scans (PLY, LAS, E57, PCD, PTX, PTS, text), wherever each lies, into the frame of\n"
          "one of them. SCAN is a file, a folder, a pattern, or one scan of a file (hall.ptx#2). DIR receives "
          "poses.json,\n"
-         "transforms/, registered.ply, report.json and report.html. Lengths are in the unit of the scans.\n\n"
+         "poses/, transforms/, registered.ply, report.json and report.html. Lengths are in the unit of the scans.\n\n"
       << command_line_only(o, config) << '\n'
       << configurable(o, choices) << "\nExample: tcm-icp register datasets/town/*.ply --out out/town\n";
 }
@@ -309,6 +350,9 @@ void print_register_config(const RegisterOptions& options, std::ostream& out) {
   RegisterOptions o = options;
   Choices choices(o.pipeline);
   choices.method = kMethods.name(o.method);
+  choices.format = kFormats.name(o.clouds.format);
+  choices.colour = kColours.name(o.clouds.colour);
+  choices.voxel = shortest_digits(o.clouds.voxel_m);
   // The defaults of a description made from the effective values are the effective values.
   const po::options_description description = configurable(o, choices);
   po::variables_map map;

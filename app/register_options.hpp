@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "command.hpp"
+#include "tcm_icp/pipeline/output_options.hpp"
 #include "tcm_icp/pipeline/pipeline_options.hpp"
 
 namespace tcm_icp::app {
@@ -29,6 +30,7 @@ struct ScanSetOptions {
 enum class Method { kTcm, kIcp, kFeatures };
 
 struct RegisterOptions : ScanSetOptions {
+  OutputOptions clouds;
   Method method = Method::kTcm;
   std::string out;
   bool force = false;

@@ -1,5 +1,6 @@
 // `tcm-icp register` on datasets/town: the poses are right, and every file holds what docs/formats.md promises.
 
+#include <algorithm>
 #include <fstream>
 
 #include "cli_test.hpp"
@@ -68,6 +69,14 @@ TEST_F(RegisterTown, WritesPosesAndTransformsByTheContract) {
     }
   }
   EXPECT_TRUE(file.scans[4].T_reference_scan.matrix().isIdentity(0));
+  const auto lines = [&](const std::string& name) {
+    const std::string text = read_text(folder() / "result/poses" / name);
+    return std::count(text.begin(), text.end(), '\n');
+  };
+  EXPECT_EQ(lines("poses.csv"), 7);
+  EXPECT_EQ(lines("tum.txt"), 6);
+  EXPECT_EQ(lines("kitti.txt"), 6);
+  EXPECT_GE(lines("graph.g2o"), 6);
 }
 
 TEST_F(RegisterTown, WritesEveryPointMovedWithAttributesIndexAndColour) {

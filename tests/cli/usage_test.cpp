@@ -52,6 +52,16 @@ TEST_F(Usage, RefusesNumbersOutOfBounds) {
   expect_bad({"--annealing.final-temperature", "0"}, {"final_temperature", "0"});
 }
 
+TEST_F(Usage, PrintConfigHasWhatWasAskedForAndReadsItBack) {
+  const Words asked{"--each", "--level", "--format", "las", "--voxel", "0.05", "--colour", "scan"};
+  const std::string text = config(asked);
+  for (const char* const line : {"each = true", "level = true", "format = las", "voxel = 0.05", "colour = scan"}) {
+    EXPECT_NE(text.find(std::string("\n") + line + '\n'), std::string::npos) << line;
+  }
+  folder_.write("options.ini", text);
+  EXPECT_EQ(config({"--config", "options.ini"}), text);
+}
+
 TEST_F(Usage, HelpGoesToStdoutAndNamesEveryOption) {
   const RunResult help = run({"register", "--help"});
   EXPECT_EQ(help.exit_code, 0);

@@ -1,6 +1,5 @@
 #include "merged_record.hpp"
 
-#include <bit>
 #include <cmath>
 #include <cstring>
 
@@ -10,42 +9,39 @@
 #include "tcm_icp/io/scan_colour.hpp"
 
 namespace tcm_icp {
-namespace {
 
-void put(double value, ScalarType type, std::byte* to) {
-  store_scalar(value, type, to);
-  if constexpr (std::endian::native == std::endian::big) {
-    std::array<std::byte, sizeof(double)> native;
-    std::memcpy(native.data(), to, scalar_size(type));
-    copy_reversed(native.data(), scalar_size(type), to);
+MergedRecord::MergedRecord(const std::vector<std::vector<Attribute>>& scan_attributes, CloudColour colour,
+                           bool one_scan) {
+  const MergedColumns merged = merge_columns(scan_attributes, colour, one_scan);
+  for (const char* const axis : {"x", "y", "z"}) add_column(axis, ScalarType::kFloat64);
+  layout_.has_scan = !one_scan;
+  if (layout_.has_scan) add_column("scan", scan_attributes.size() > 65536 ? ScalarType::kUInt32 : ScalarType::kUInt16);
+  layout_.colour_is_by_scan = merged.has_colour_by_scan;
+  layout_.has_colour = merged.has_colour_by_scan || merged.has_own_colour;
+  if (merged.has_colour_by_scan) {
+    for (const char* const name : {"red", "green", "blue"}) add_column(name, ScalarType::kUInt8);
+  }
+  first_column_ = layout_.columns.size();
+  for (const auto& column : merged.columns) add_column(column.name, column.type);
+  for (std::size_t scan = 0; scan < scan_attributes.size(); ++scan) {
+    layouts_.push_back(lay_out_scan(scan_attributes[scan], merged.column_of[scan]));
   }
 }
 
-}  // namespace
-
-MergedRecord::MergedRecord(const std::vector<std::vector<Attribute>>& scan_attributes)
-    : scan_type_(scan_attributes.size() > 65536 ? ScalarType::kUInt32 : ScalarType::kUInt16) {
-  MergedColumns merged = merge_columns(scan_attributes);
-  columns_ = std::move(merged.columns);
-  colour_offset_ = 3 * sizeof(double) + scalar_size(scan_type_);
-  size_ = colour_offset_ + 3;
-  std::vector<std::size_t> column_offsets;
-  for (const auto& column : columns_) {
-    column_offsets.push_back(size_);
-    size_ += scalar_size(column.type);
-  }
-  for (std::size_t scan = 0; scan < scan_attributes.size(); ++scan) {
-    layouts_.push_back(lay_out_scan(scan_attributes[scan], merged.column_of[scan], column_offsets));
-  }
+void MergedRecord::add_column(const std::string& name, ScalarType type) {
+  layout_.columns.push_back({name, type, layout_.size});
+  layout_.size += scalar_size(type);
 }
 
 MergedRecord::ScanLayout MergedRecord::lay_out_scan(const std::vector<Attribute>& attributes,
-                                                    const std::vector<std::size_t>& columns,
-                                                    const std::vector<std::size_t>& column_offsets) const {
+                                                    const std::vector<std::size_t>& columns) const {
   ScanLayout layout;
   std::array<std::optional<Copy>, 3> normal;
   for (std::size_t i = 0; i < attributes.size(); ++i) {
-    const Copy copy{attributes[i].type, columns_[columns[i]].type, layout.stride, column_offsets[columns[i]]};
+    const RecordColumn& column = layout_.columns[first_column_ + columns[i]];
+    Copy copy{attributes[i].type, column.type, layout.stride, column.offset};
+    const bool is_own_colour = layout_.has_colour && !layout_.colour_is_by_scan && columns[i] < 3;
+    if (is_own_colour && copy.from_type != copy.to_type) copy.factor = 257;  // 255 becomes 65535
     layout.stride += scalar_size(copy.from_type);
     if (is_normal_component(attributes[i].name)) {
       normal[static_cast<std::size_t>(attributes[i].name[1] - 'x')] = copy;
@@ -63,16 +59,6 @@ MergedRecord::ScanLayout MergedRecord::lay_out_scan(const std::vector<Attribute>
   return layout;
 }
 
-std::string MergedRecord::header_properties() const {
-  std::string lines = "property double x\nproperty double y\nproperty double z\n";
-  lines += "property " + std::string(ply_type_name(scan_type_)) + " scan\n";
-  lines += "property uchar red\nproperty uchar green\nproperty uchar blue\n";
-  for (const auto& column : columns_) {
-    lines += "property " + std::string(ply_type_name(column.type)) + " " + column.name + "\n";
-  }
-  return lines;
-}
-
 double MergedRecord::finite_or_zero(double value, ScalarType type) {
   // A value beyond the range of a float column (a rotated normal) would become infinite there.
   if (std::isfinite(type == ScalarType::kFloat32 ? static_cast<float>(value) : value)) return value;
@@ -86,23 +72,26 @@ void MergedRecord::fill(std::size_t scan, const Eigen::Vector3d& point, const st
   const Eigen::Vector3d moved = T_reference_scan * point;
   if (!moved.allFinite()) throw InvalidInput("a point of scan " + std::to_string(scan) + " is not finite once moved");
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    put(moved[static_cast<Eigen::Index>(axis)], ScalarType::kFloat64, record + axis * sizeof(double));
+    store_scalar(moved[static_cast<Eigen::Index>(axis)], ScalarType::kFloat64, record + axis * sizeof(double));
   }
-  put(static_cast<double>(scan), scan_type_, record + 3 * sizeof(double));
-  const auto colour = scan_colour(scan);
-  std::memcpy(record + colour_offset_, colour.data(), colour.size());
+  const auto& columns = layout_.columns;
+  if (layout_.has_scan) store_scalar(static_cast<double>(scan), columns[3].type, record + columns[3].offset);
+  if (layout_.colour_is_by_scan) {
+    const auto colour = scan_colour(scan);
+    std::memcpy(record + columns[layout_.first_colour()].offset, colour.data(), colour.size());
+  }
 
   const auto value_of = [&](const Copy& copy) {
     return finite_or_zero(load_scalar(attributes + copy.from, copy.from_type), copy.from_type);
   };
   const ScanLayout& layout = layouts_[scan];
-  for (const Copy& copy : layout.copies) put(value_of(copy), copy.to_type, record + copy.to);
+  for (const Copy& copy : layout.copies) store_scalar(copy.factor * value_of(copy), copy.to_type, record + copy.to);
   if (!layout.normal) return;
   const auto& [nx, ny, nz] = *layout.normal;
   const Eigen::Vector3d normal = T_reference_scan.linear() * Eigen::Vector3d(value_of(nx), value_of(ny), value_of(nz));
-  put(finite_or_zero(normal.x(), nx.to_type), nx.to_type, record + nx.to);
-  put(finite_or_zero(normal.y(), ny.to_type), ny.to_type, record + ny.to);
-  put(finite_or_zero(normal.z(), nz.to_type), nz.to_type, record + nz.to);
+  store_scalar(finite_or_zero(normal.x(), nx.to_type), nx.to_type, record + nx.to);
+  store_scalar(finite_or_zero(normal.y(), ny.to_type), ny.to_type, record + ny.to);
+  store_scalar(finite_or_zero(normal.z(), nz.to_type), nz.to_type, record + nz.to);
 }
 
 }  // namespace tcm_icp

@@ -1,5 +1,5 @@
 #pragma once
-// One point of the merged cloud as bytes: x y z, scan, colour, then the union of the scans' attributes.
+// One point of a registered cloud as bytes: x y z, scan, colour, then the union of the scans' attributes.
 
 #include <Eigen/Geometry>
 #include <array>
@@ -9,20 +9,19 @@
 #include <string>
 #include <vector>
 
-#include "tcm_icp/io/point_block.hpp"
+#include "cloud_sink.hpp"
+#include "merged_columns.hpp"
 
 namespace tcm_icp {
 
 class MergedRecord {
  public:
-  explicit MergedRecord(const std::vector<std::vector<Attribute>>& scan_attributes);
+  MergedRecord(const std::vector<std::vector<Attribute>>& scan_attributes, CloudColour colour, bool one_scan);
 
-  std::size_t size() const { return size_; }  ///< [bytes]
-  std::size_t num_scans() const { return layouts_.size(); }
+  const RecordLayout& layout() const { return layout_; }
   std::size_t stride(std::size_t scan) const { return layouts_[scan].stride; }  ///< [bytes] of its points' attributes
-  std::string header_properties() const;                                        ///< the lines of the PLY header
 
-  /// Fills `size()` zeroed bytes, little-endian, with a raw point of a scan and its attributes.
+  /// Fills the zeroed bytes of a record with a raw point of a scan and its attributes.
   /// @throws InvalidInput  if the moved point is not finite
   void fill(std::size_t scan, const Eigen::Vector3d& point, const std::byte* attributes,
             const Eigen::Isometry3d& T_reference_scan, std::byte* record);
@@ -34,6 +33,7 @@ class MergedRecord {
   struct Copy {
     ScalarType from_type, to_type;
     std::size_t from, to;  ///< [bytes] in the point's attributes, in the record
+    double factor = 1;
   };
   struct ScanLayout {
     std::vector<Copy> copies;
@@ -41,13 +41,12 @@ class MergedRecord {
     std::size_t stride = 0;
   };
 
-  ScanLayout lay_out_scan(const std::vector<Attribute>& attributes, const std::vector<std::size_t>& columns,
-                          const std::vector<std::size_t>& column_offsets) const;
+  void add_column(const std::string& name, ScalarType type);
+  ScanLayout lay_out_scan(const std::vector<Attribute>& attributes, const std::vector<std::size_t>& columns) const;
   double finite_or_zero(double value, ScalarType type);
 
-  std::vector<Attribute> columns_;
-  ScalarType scan_type_;
-  std::size_t colour_offset_ = 0, size_ = 0;
+  RecordLayout layout_;
+  std::size_t first_column_ = 0;  ///< of the scans' own
   std::vector<ScanLayout> layouts_;
   std::uint64_t num_replaced_ = 0;
 };

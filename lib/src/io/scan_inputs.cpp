@@ -32,7 +32,11 @@ void sort_naturally(std::vector<fs::path>& paths) {
 }
 
 bool is_result(const fs::path& folder) {
-  return fs::exists(folder / "poses.json") && fs::exists(folder / "registered.ply");
+  if (!fs::exists(folder / "poses.json")) return false;
+  for (const char* const name : {"registered.ply", "registered.las", "registered.pcd", "registered.xyz"}) {
+    if (fs::exists(folder / name)) return true;
+  }
+  return false;
 }
 
 void list_files(const fs::path& folder, std::vector<fs::path>& files) {

@@ -2,14 +2,14 @@
 
 #include <fstream>
 
+#include "pipeline/pose_graph_edges.hpp"
+#include "pipeline/registered_clouds.hpp"
 #include "pipeline/stage_clock.hpp"
 #include "report/report_html.hpp"
 #include "tcm_icp/core/error.hpp"
-#include "tcm_icp/core/parallel.hpp"
 #include "tcm_icp/io/output_folder.hpp"
+#include "tcm_icp/io/pose_export.hpp"
 #include "tcm_icp/io/pose_io.hpp"
-#include "tcm_icp/io/registered_ply_writer.hpp"
-#include "tcm_icp/io/scan_reader.hpp"
 
 namespace tcm_icp {
 namespace {
@@ -26,42 +26,11 @@ void write_text(const fs::path& path, const std::string& text) {
   if (!out) throw OutputError(path, "cannot be written", "check that the disk is not full");
 }
 
-void write_registered_cloud(const fs::path& path, const std::vector<fs::path>& paths, const PipelineResult& result,
-                            const RunContext& context) {
-  std::vector<std::vector<Attribute>> attributes;
-  for (const auto& p : paths) attributes.push_back(ScanReader(p).attributes());
-  RegisteredPlyWriter writer(path, attributes, result.scans[result.reference].file);
-  PointBlock block, kept;
-  std::vector<char> outlier;
-  for (std::size_t i = 0; i < paths.size(); ++i) {
-    if (result.poses[i].status == ScanStatus::kUnregistered) continue;
-    const ScanSummary& scan = result.scans[i];
-    ScanReader reader(paths[i]);
-    const std::size_t stride = reader.attribute_stride();
-    while (reader.read(block)) {
-      context.report("writing", i, paths.size());
-      kept.points.clear();
-      kept.attributes.clear();
-      outlier.resize(block.size());
-      parallel_for(context.num_threads, block.size(), [&](std::size_t begin, std::size_t end) {
-        for (std::size_t k = begin; k < end; ++k) {
-          outlier[k] = scan.outliers.is_outlier(block.points[k] - scan.origin) ? 1 : 0;
-        }
-      });
-      for (std::size_t k = 0; k < block.size(); ++k) {
-        if (outlier[k] != 0) continue;
-        kept.points.push_back(block.points[k]);
-        const auto* bytes = block.attributes.data() + k * stride;
-        kept.attributes.insert(kept.attributes.end(), bytes, bytes + stride);
-      }
-      if (kept.size() > 0) writer.write(i, kept, attributes[i], result.poses[i].T_reference_scan);
-    }
-  }
-  writer.finish();
-  if (writer.num_replaced() > 0) {
-    context.warn(std::to_string(writer.num_replaced()) +
-                 " attribute values were NaN or infinite and are 0 in registered.ply");
-  }
+void add_options(const OutputOptions& clouds, Json& to) {
+  to["format"] = std::string(extension_of(clouds.format)).substr(1);
+  to["each"] = clouds.each;
+  to["voxel_m"] = clouds.voxel_m;
+  to["colour"] = clouds.colour == CloudColour::kKeep ? "keep" : "scan";
 }
 
 }  // namespace
@@ -71,11 +40,12 @@ void check_output_folder(const fs::path& folder, bool overwrite) {
 }
 
 void write_result(const fs::path& folder, bool overwrite, const std::vector<fs::path>& paths, PipelineResult& result,
-                  const PipelineOptions& options, const RunContext& context, const RunDescription& description) {
+                  const PipelineOptions& options, const OutputOptions& clouds, const RunContext& context,
+                  const RunDescription& description) {
   OutputFolder output(folder, overwrite, kMarker);
   StageClock clock(result.stages);
   clock.begin("write");
-  write_registered_cloud(output.work() / "registered.ply", paths, result, context);
+  write_registered_clouds(output.work(), paths, result, clouds, context);
   write_pose_file(output.work() / "poses.json", {result.scans[result.reference].file, result.poses});
   fs::create_directory(output.work() / "transforms");
   for (const auto& pose : result.poses) {
@@ -84,8 +54,11 @@ void write_result(const fs::path& folder, bool overwrite, const std::vector<fs::
     fs::create_directories(file.parent_path());  // "Setup1/scan.ply" is the name of one of several scan.ply
     write_transform(file, pose.T_reference_scan);
   }
+  fs::create_directory(output.work() / "poses");
+  write_pose_exports(output.work() / "poses", result.poses, pose_graph_edges(result));
   clock.end();
-  const Json report = report_object(result, options, context, description);
+  Json report = report_object(result, options, context, description);
+  add_options(clouds, report["options"]);
   write_text(output.work() / "report.json", json_text(report));
   write_text(output.work() / "report.html", report_html(report));
   output.commit();

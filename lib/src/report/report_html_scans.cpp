@@ -83,7 +83,8 @@ std::string scans_section(const Json& report) {
              {"group", "number"},
              {"reason", "wide"}},
             rows) +
-          note("The number is that of property <i>scan</i> in registered.ply, the colour that of its points. "
+          note("The number is that of property <i>scan</i> in registered.ply, the colour that of its points where "
+               "these have none of their own. "
                "Overlap: share of the scan\u2019s points, kept out of every fit, that have a neighbour in other scans; "
                "within noise: share of those that lie on the neighbour\u2019s surface; residual: median distance to "
                "it. 1\u03C3: standard deviation of the scan\u2019s middle and of its rotation against the reference "

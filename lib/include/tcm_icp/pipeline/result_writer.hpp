@@ -1,11 +1,13 @@
 #pragma once
-// The files of a result: poses.json, transforms/, registered.ply, report.json, report.html.
+// The files of a result: poses.json, poses/, transforms/, registered.ply (or .las, .pcd, .xyz), scans/, report.json,
+// report.html.
 
 #include <filesystem>
 #include <string>
 #include <vector>
 
 #include "tcm_icp/core/run_context.hpp"
+#include "tcm_icp/pipeline/output_options.hpp"
 #include "tcm_icp/pipeline/pipeline_options.hpp"
 #include "tcm_icp/pipeline/pipeline_result.hpp"
 
@@ -32,7 +34,7 @@ void check_output_folder(const std::filesystem::path& folder, bool overwrite);
 /// stream by a second time: outliers are left out, attributes kept. The time it takes is added to result.stages.
 /// @throws InputError, OutputError, Cancelled
 void write_result(const std::filesystem::path& folder, bool overwrite, const std::vector<std::filesystem::path>& paths,
-                  PipelineResult& result, const PipelineOptions& options, const RunContext& context,
-                  const RunDescription& description);
+                  PipelineResult& result, const PipelineOptions& options, const OutputOptions& clouds,
+                  const RunContext& context, const RunDescription& description);
 
 }  // namespace tcm_icp

@@ -1,4 +1,4 @@
-#include "tcm_icp/io/registered_ply_writer.hpp"
+#include "tcm_icp/io/registered_cloud_writer.hpp"
 
 #include <gtest/gtest.h>
 
@@ -38,10 +38,10 @@ Eigen::Isometry3d large_motion() {
   return isometry_from_twist(twist);
 }
 
-TEST(RegisteredPlyWriter, PointsAreMovedAndCarryScanAndColour) {
+TEST(RegisteredCloudWriter, PointsAreMovedAndCarryScanAndColour) {
   const TempFolder folder;
   const auto path = folder.path() / "registered.ply";
-  RegisteredPlyWriter writer(path, {{}, {}}, "b.ply");
+  RegisteredCloudWriter writer(path, {{}, {}}, {.reference = "b.ply"});
   const Eigen::Isometry3d T = large_motion();
   writer.write(1, {{{1, 2, 3}, {4, 5, 6}}, {}}, {}, T);
   writer.write(0, {{{7, 8, 9}}, {}}, {}, Eigen::Isometry3d::Identity());
@@ -61,17 +61,17 @@ TEST(RegisteredPlyWriter, PointsAreMovedAndCarryScanAndColour) {
   EXPECT_NE(read_text(path).find("\nelement vertex 3\n"), std::string::npos);
 }
 
-TEST(RegisteredPlyWriter, WithoutFinishTheFileHoldsNoPoints) {
+TEST(RegisteredCloudWriter, WithoutFinishTheFileHoldsNoPoints) {
   const TempFolder folder;
   const auto path = folder.path() / "registered.ply";
   {
-    RegisteredPlyWriter writer(path, {{}}, "a.ply");
+    RegisteredCloudWriter writer(path, {{}}, {.reference = "a.ply"});
     writer.write(0, {{{1, 2, 3}}, {}}, {}, Eigen::Isometry3d::Identity());
   }
   EXPECT_EQ(read_whole(path).block.size(), 0u);
 }
 
-TEST(RegisteredPlyWriter, AttributesAreUnitedWidenedAndRenamed) {
+TEST(RegisteredCloudWriter, AttributesAreUnitedWidenedAndRenamed) {
   const TempFolder folder;
   const auto path = folder.path() / "registered.ply";
   const std::vector<Attribute> a = {{"intensity", ScalarType::kUInt8}, {"red", ScalarType::kUInt8}};
@@ -79,7 +79,7 @@ TEST(RegisteredPlyWriter, AttributesAreUnitedWidenedAndRenamed) {
                                     {"intensity", ScalarType::kInt16},
                                     {"scan", ScalarType::kInt32},
                                     {"input_red", ScalarType::kUInt8}};
-  RegisteredPlyWriter writer(path, {a, b}, "a.ply");
+  RegisteredCloudWriter writer(path, {a, b}, {.reference = "a.ply"});
   const Eigen::Isometry3d identity = Eigen::Isometry3d::Identity();
   writer.write(0, {{{0, 0, 0}}, packed("\xC8\x07")}, a, identity);
   writer.write(1,
@@ -102,7 +102,7 @@ TEST(RegisteredPlyWriter, AttributesAreUnitedWidenedAndRenamed) {
   EXPECT_EQ(attribute_of<std::int32_t>(scan, 1, "input_scan"), 99);
 }
 
-TEST(RegisteredPlyWriter, TypesThatDifferAreWidenedToOneThatHoldsBoth) {
+TEST(RegisteredCloudWriter, TypesThatDifferAreWidenedToOneThatHoldsBoth) {
   using enum ScalarType;
   const TempFolder folder;
   const std::vector<std::array<ScalarType, 3>> cases = {
@@ -113,29 +113,29 @@ TEST(RegisteredPlyWriter, TypesThatDifferAreWidenedToOneThatHoldsBoth) {
   for (const auto& [first, second, expected] : cases) {
     for (const auto& pair : {std::array{first, second}, std::array{second, first}}) {
       const auto path = folder.path() / "a.ply";
-      RegisteredPlyWriter(path, {{{"v", pair[0]}}, {{"v", pair[1]}}}, "a.ply").finish();
+      RegisteredCloudWriter(path, {{{"v", pair[0]}}, {{"v", pair[1]}}}, {.reference = "a.ply"}).finish();
       EXPECT_EQ(ScanReader(path).attributes().back(), (Attribute{"v", expected}));
     }
   }
 }
 
-TEST(RegisteredPlyWriter, MoreScansThanAShortCanCountGetAWiderIndex) {
+TEST(RegisteredCloudWriter, MoreScansThanAShortCanCountGetAWiderIndex) {
   const TempFolder folder;
   const auto type_of = [&](std::size_t num_scans) {
     const auto path = folder.path() / "a.ply";
-    RegisteredPlyWriter(path, std::vector<std::vector<Attribute>>(num_scans), "a.ply").finish();
+    RegisteredCloudWriter(path, std::vector<std::vector<Attribute>>(num_scans), {.reference = "a.ply"}).finish();
     return ScanReader(path).attributes().at(0);
   };
   EXPECT_EQ(type_of(65536), (Attribute{"scan", ScalarType::kUInt16}));
   EXPECT_EQ(type_of(65537), (Attribute{"scan", ScalarType::kUInt32}));
 }
 
-TEST(RegisteredPlyWriter, NormalsTurnWithTheirScan) {
+TEST(RegisteredCloudWriter, NormalsTurnWithTheirScan) {
   const TempFolder folder;
   const auto path = folder.path() / "registered.ply";
   const std::vector<Attribute> attributes = {
       {"nz", ScalarType::kFloat32}, {"nx", ScalarType::kFloat32}, {"ny", ScalarType::kFloat32}};
-  RegisteredPlyWriter writer(path, {attributes}, "a.ply");
+  RegisteredCloudWriter writer(path, {attributes}, {.reference = "a.ply"});
   const Eigen::Isometry3d T = large_motion();
   const std::string normal = bytes_of(0.8F) + bytes_of(0.6F) + bytes_of(0.0F);
   writer.write(0, {{{1, 2, 3}}, packed(normal)}, attributes, T);
@@ -149,7 +149,7 @@ TEST(RegisteredPlyWriter, NormalsTurnWithTheirScan) {
   EXPECT_LT((turned - T.linear() * raw).norm(), kFloatRounding);
 }
 
-TEST(RegisteredPlyWriter, NoNanIsWritten) {
+TEST(RegisteredCloudWriter, NoNanIsWritten) {
   const TempFolder folder;
   const auto path = folder.path() / "registered.ply";
   const std::vector<Attribute> attributes = {{"a", ScalarType::kFloat32},
@@ -157,7 +157,7 @@ TEST(RegisteredPlyWriter, NoNanIsWritten) {
                                              {"nx", ScalarType::kFloat64},
                                              {"ny", ScalarType::kFloat64},
                                              {"nz", ScalarType::kFloat64}};
-  RegisteredPlyWriter writer(path, {attributes}, "a.ply");
+  RegisteredCloudWriter writer(path, {attributes}, {.reference = "a.ply"});
   const std::string values = bytes_of(std::numeric_limits<float>::infinity()) + bytes_of(kNan) + bytes_of(kNan) +
                              bytes_of(0.0) + bytes_of(1.0);
   writer.write(0, {{{1, 2, 3}}, packed(values)}, attributes, Eigen::Isometry3d::Identity());
@@ -170,7 +170,7 @@ TEST(RegisteredPlyWriter, NoNanIsWritten) {
   EXPECT_EQ(attribute_of<double>(scan, 0, "nz"), 1);
 }
 
-TEST(RegisteredPlyWriter, FarFromTheOriginATenthOfAMillimetreSurvives) {
+TEST(RegisteredCloudWriter, FarFromTheOriginATenthOfAMillimetreSurvives) {
   const TempFolder folder;
   std::string text;
   Rng rng = make_stream(1, "large_coordinates");
@@ -188,7 +188,7 @@ TEST(RegisteredPlyWriter, FarFromTheOriginATenthOfAMillimetreSurvives) {
   twist << 0.3, -0.2, 2.5, 12, -30, 4;
   const Eigen::Isometry3d T = isometry_about({500050, 5000050, 50}, twist);
   ScanReader reader(in);
-  RegisteredPlyWriter writer(out, {reader.attributes()}, "in.xyz");
+  RegisteredCloudWriter writer(out, {reader.attributes()}, {.reference = "in.xyz"});
   PointBlock block;
   while (reader.read(block, 300)) writer.write(0, block, reader.attributes(), T);
   writer.finish();
@@ -206,10 +206,10 @@ TEST(RegisteredPlyWriter, FarFromTheOriginATenthOfAMillimetreSurvives) {
   EXPECT_GT(worst, 1e-6);  // the rounding of the text: were it 0, nothing had been compared
 }
 
-TEST(RegisteredPlyWriter, MisuseIsRefused) {
+TEST(RegisteredCloudWriter, MisuseIsRefused) {
   const TempFolder folder;
   const std::vector<Attribute> attributes = {{"i", ScalarType::kUInt8}};
-  RegisteredPlyWriter writer(folder.path() / "a.ply", {attributes}, "a.ply");
+  RegisteredCloudWriter writer(folder.path() / "a.ply", {attributes}, {.reference = "a.ply"});
   const Eigen::Isometry3d identity = Eigen::Isometry3d::Identity();
   EXPECT_THROW(writer.write(1, {{{1, 2, 3}}, packed("i")}, attributes, identity), InvalidInput);
   EXPECT_THROW(writer.write(0, {{{1, 2, 3}}, {}}, attributes, identity), InvalidInput);
@@ -218,12 +218,12 @@ TEST(RegisteredPlyWriter, MisuseIsRefused) {
   EXPECT_EQ(writer.num_points(), 0u);
 }
 
-TEST(RegisteredPlyWriter, AFileThatCannotBeWrittenIsAnError) {
+TEST(RegisteredCloudWriter, AFileThatCannotBeWrittenIsAnError) {
   const TempFolder folder;
-  EXPECT_THROW(RegisteredPlyWriter(folder.path() / "none" / "a.ply", {{}}, "a.ply"), OutputError);
+  EXPECT_THROW(RegisteredCloudWriter(folder.path() / "none" / "a.ply", {{}}, {.reference = "a.ply"}), OutputError);
   if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
   const auto fill = [] {
-    RegisteredPlyWriter writer("/dev/full", {{}}, "a.ply");
+    RegisteredCloudWriter writer("/dev/full", {{}}, {.reference = "a.ply"});
     writer.write(0, {Points(10, Eigen::Vector3d(1, 2, 3)), {}}, {}, Eigen::Isometry3d::Identity());
     writer.finish();
   };
