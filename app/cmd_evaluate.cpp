@@ -3,11 +3,11 @@
 #include <boost/program_options.hpp>
 #include <iostream>
 #include <map>
-#include <thread>
 
 #include "command.hpp"
 #include "evaluation_report.hpp"
 #include "option_binding.hpp"
+#include "parse_arguments.hpp"
 #include "run_setup.hpp"
 #include "tcm_icp/core/error.hpp"
 #include "tcm_icp/io/pose_io.hpp"
@@ -25,7 +25,7 @@ struct Request {
   std::size_t rms_points = 50000;
   std::size_t cloud_points = 200000;
   std::uint64_t seed = 42;
-  int threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  RunOptions run;
   double max_rotation_deg = 0, max_rmse = 0;
 };
 
@@ -47,15 +47,15 @@ po::options_description describe(Request& r) {
       ("cloud-points", bind_option(&r.cloud_points),
        "points, shared out among all scans, that stand for the clouds whose distance is measured")  //
       ("seed", bind_option(&r.seed), "of both draws")                                               //
-      ("threads", bind_option(&r.threads), "changes the time, never the result")                    //
       ("help,h", "this text");
+  add_run_options(r.run, what);
   return what;
 }
 
 void validate(const Request& r, const po::variables_map& given) {
   r.options.validate();
   if (r.rms_points < 1 || r.cloud_points < 1) throw InvalidOptions("--rms-points and --cloud-points need 1 or more");
-  if (r.threads < 1) throw InvalidOptions("--threads = " + std::to_string(r.threads) + "; needs >= 1");
+  num_threads(r.run.threads);
   for (const auto& [name, value] : {std::pair("max-rotation", r.max_rotation_deg), {"max-rmse", r.max_rmse}})
     if (given.count(name) > 0 && !(value > 0))
       throw InvalidOptions("--" + std::string(name) + " = " + std::to_string(value) + "; needs > 0");
@@ -150,7 +150,8 @@ Evaluation evaluate(const Request& r, const po::variables_map& given) {
   }
   out.score = score_poses(out.truth, estimates.poses, estimates.reference, thinned, r.options);
   Rng rng = make_stream(r.seed, "evaluate rms");
-  out.clouds = compare_clouds(out.truth, estimates.poses, estimates.reference, drawn, r.rms_points, rng, r.threads);
+  out.clouds = compare_clouds(out.truth, estimates.poses, estimates.reference, drawn, r.rms_points, rng,
+                              num_threads(r.run.threads));
   out.min_overlap = r.options.min_overlap;
   out.seed = r.seed;
   return out;
@@ -162,7 +163,7 @@ int cmd_evaluate(const Arguments& arguments) {
   Request request;
   const po::options_description description = describe(request);
   po::variables_map given;
-  po::store(po::command_line_parser(arguments).options(description).positional({}).run(), given);
+  po::store(parse_arguments(arguments, description), given);
   if (given.count("help") > 0) {
     std::cout
         << "Usage: tcm-icp evaluate --scans DIR --poses POSES.json --truth TRUTH.json [--json FILE]\n"

@@ -12,6 +12,7 @@
 #include "tcm_icp/pipeline/pair_pipeline.hpp"
 #include "tcm_icp/pipeline/pipeline.hpp"
 #include "tcm_icp/pipeline/result_writer.hpp"
+#include "text_width.hpp"
 #include "version.hpp"
 
 namespace tcm_icp::app {
@@ -68,7 +69,11 @@ int cmd_register(const Arguments& arguments) {
   write_result(o.out, o.force, paths, result, o.pipeline, context,
                {kVersion, command_line("register", arguments), o.initial_poses, started});
   console.finish();
-  if (!o.quiet) print_register_table(result, std::cerr);
+  if (!o.quiet) {
+    const bool verified = o.method == Method::kTcm && o.pipeline.profile == Profile::kRobust;
+    print_register_table(result, terminal_width(), std::cerr);
+    std::cerr << register_summary(result, verified, std::filesystem::path(o.out) / "report.html") << '\n';
+  }
   return result.all_registered() ? kSuccess : kSomeUnregistered;
 }
 

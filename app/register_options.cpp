@@ -2,7 +2,6 @@
 
 #include <array>
 #include <boost/program_options/parsers.hpp>
-#include <boost/program_options/positional_options.hpp>
 #include <boost/program_options/value_semantic.hpp>
 #include <fstream>
 #include <iomanip>
@@ -11,7 +10,9 @@
 #include <utility>
 
 #include "option_binding.hpp"
+#include "parse_arguments.hpp"
 #include "run_setup.hpp"
+#include "suggestion.hpp"
 #include "tcm_icp/core/error.hpp"
 
 namespace tcm_icp::app {
@@ -27,11 +28,14 @@ struct Names {
 
   Enum parse(const std::string& text) const {
     std::string all;
+    std::vector<std::string> known;
     for (const auto& [name, value] : entries) {
       if (text == name) return value;
       all += (all.empty() ? "" : ", ") + std::string(name);
+      known.emplace_back(name);
     }
-    throw InvalidOptions(std::string("--") + option + " '" + text + "': choose one of " + all);
+    throw InvalidOptions(std::string("--") + option + " '" + text + "': choose one of " + all +
+                         did_you_mean(text, known));
   }
   const char* name(Enum wanted) const {
     for (const auto& [name, value] : entries) {
@@ -104,8 +108,7 @@ void add_comparison_options(ScanSetOptions& o, Choices& c, po::options_descripti
       "headers of PTX and E57 scans, as of one common frame")("bin", value(o.bin), kBinHelp)(
       "graph-threshold", value(o.pipeline.graph_threshold),
       "correspondence measure below which two scans are connected, at initial poses; 0: from the data")(
-      "seed", value(o.seed), "seed of all random numbers")(
-      "threads", value(o.threads), "threads; 0: all of the machine; the result is the same for any number");
+      "seed", value(o.seed), "seed of all random numbers")("threads", value(o.threads), kThreadsHelp);
 }
 
 po::options_description outlier_options(PipelineOptions& p, Choices& c) {
@@ -181,7 +184,7 @@ po::options_description command_line_only(RegisterOptions& o, std::string& confi
       "force", po::bool_switch(&o.force), "replace an earlier result")(
       "config", po::value(&config), "read options from FILE (name = value); the command line wins")(
       "print-config", po::bool_switch(&o.print_config), "write the effective options to stdout and stop")(
-      "quiet,q", po::bool_switch(&o.quiet), "no progress, no table; errors and warnings only")(
+      "quiet,q", po::bool_switch(&o.quiet), kQuietHelp)(
       "verbose,v", po::bool_switch(&o.verbose), "say what happens to each scan")("help,h", po::bool_switch(&o.help),
                                                                                  "this text");
   return general;
@@ -191,19 +194,16 @@ po::options_description inspect_description(InspectOptions& o, Choices& c) {
   po::options_description all("Options");
   all.add_options()("json", po::bool_switch(&o.json), "write JSON in place of the tables");
   add_comparison_options(o, c, all);
-  all.add_options()("quiet,q", po::bool_switch(&o.quiet), "no progress; errors and warnings only")(
-      "help,h", po::bool_switch(&o.help), "this text");
+  all.add_options()("quiet,q", po::bool_switch(&o.quiet), kQuietHelp)(
+      "verbose,v", po::bool_switch(&o.verbose), kVerboseHelp)("help,h", po::bool_switch(&o.help), "this text");
   all.add(outlier_options(o.pipeline, c)).add(sampling_options(o.pipeline));
   return all;
 }
 
-// No guessing of shortened names: a typo must not become another option.
-constexpr int kStyle = po::command_line_style::unix_style & ~po::command_line_style::allow_guessing;
-
 // Once the text has become options.
 void finish(ScanSetOptions& o, const Choices& choices) {
   choices.apply(o.pipeline);
-  if (o.threads < 0) throw InvalidOptions("--threads must be at least 0, not " + std::to_string(o.threads));
+  num_threads(o.threads);
   o.pipeline.validate();
 }
 
@@ -238,6 +238,9 @@ void read_config(const std::string& path, const po::options_description& options
   }
   try {
     store_checked(po::parse_config_file(in, options), map);
+  } catch (const po::unknown_option& e) {
+    const std::string what = unknown_option_error(e, options, "").what();
+    throw InvalidOptions(joined(path + ": " + what, "--print-config shows what may stand there"));
   } catch (const po::error& e) {
     throw InvalidOptions(path + ": " + e.what() + "; --print-config shows what may stand there");
   }
@@ -254,11 +257,9 @@ RegisterOptions parse_register_options(const Arguments& arguments) {
   scans.add_options()("scan", po::value(&o.scans));
   po::options_description all;
   all.add(command_line_only(o, config)).add(file_options).add(scans);
-  po::positional_options_description positional;
-  positional.add("scan", -1);
 
   po::variables_map map;
-  store_checked(po::command_line_parser(arguments).options(all).positional(positional).style(kStyle).run(), map);
+  store_checked(parse_arguments(arguments, all, "scan"), map);
   if (map.count("config") != 0) read_config(map["config"].as<std::string>(), file_options, map);
   po::notify(map);
   o.method = kMethods.parse(choices.method);
@@ -272,10 +273,8 @@ InspectOptions parse_inspect_options(const Arguments& arguments) {
   Choices choices(o.pipeline);
   po::options_description all = inspect_description(o, choices);
   all.add_options()("scan", po::value(&o.scans));
-  po::positional_options_description positional;
-  positional.add("scan", -1);
   po::variables_map map;
-  store_checked(po::command_line_parser(arguments).options(all).positional(positional).style(kStyle).run(), map);
+  store_checked(parse_arguments(arguments, all, "scan"), map);
   po::notify(map);
   finish(o, choices);
   return o;

@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <ctime>
 #include <map>
-#include <thread>
 
+#include "parse_arguments.hpp"
+#include "suggestion.hpp"
 #include "tcm_icp/core/error.hpp"
 #include "tcm_icp/io/pose_io.hpp"
 #include "tcm_icp/io/scan_path.hpp"
@@ -34,7 +35,8 @@ BinLayout parse_bin(const std::string& text) {
   if (text.empty()) return BinLayout::kNone;
   if (text == "kitti") return BinLayout::kKitti;
   if (text == "nuscenes") return BinLayout::kNuScenes;
-  throw InvalidOptions("--bin '" + text + "': choose one of kitti, nuscenes");
+  throw InvalidOptions("--bin '" + text + "': choose one of kitti, nuscenes" +
+                       did_you_mean(text, {"kitti", "nuscenes"}));
 }
 
 void report_left_out(const ScanInputs& inputs, const RunContext& context) {
@@ -68,8 +70,7 @@ InitialPoses read_guess(const ScanSetOptions& options, const std::vector<std::fi
 RunContext run_context(const ScanSetOptions& options, Console& console) {
   RunContext context;
   context.seed = options.seed;
-  context.num_threads =
-      options.threads > 0 ? options.threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  context.num_threads = num_threads(options.threads);
   context.on_progress = [&console](const Progress& p) { return console.progress(p); };
   context.log = [&console](LogLevel level, std::string_view message) { console.log(level, message); };
   return context;
