@@ -42,8 +42,8 @@ PipelineResult run_method(const RegisterOptions& o, const std::vector<std::files
 
 int cmd_register(const Arguments& arguments) {
   const RegisterOptions o = parse_register_options(arguments);
-  if (o.help) {
-    print_register_help(std::cout);
+  if (o.help || o.help_all) {
+    print_register_help(o.help_all ? Help::kAll : Help::kUsedMost, std::cout);
     return kSuccess;
   }
   if (o.print_config) {

@@ -1,6 +1,7 @@
 #include "register_options.hpp"
 
 #include <array>
+#include <boost/make_shared.hpp>
 #include <boost/program_options/parsers.hpp>
 #include <boost/program_options/value_semantic.hpp>
 #include <fstream>
@@ -139,6 +140,11 @@ po::options_description sampling_options(PipelineOptions& p) {
   return sampling;
 }
 
+// What `register --help` shows: what to write, how to run, and what most sets of scans may need.
+constexpr std::array kUsedMost{"out",     "force",   "config",     "init",     "bin",     "reference",
+                               "level",   "profile", "confidence", "outliers", "method",  "seed",
+                               "threads", "quiet",   "verbose",    "help",     "help-all"};
+
 // Options that may stand in a file, too.
 po::options_description configurable(RegisterOptions& o, Choices& c) {
   PipelineOptions& p = o.pipeline;
@@ -147,8 +153,9 @@ po::options_description configurable(RegisterOptions& o, Choices& c) {
                      "tcm: this program's; icp, features: conventional ones to compare with (no outlier removal unless "
                      "asked for, no verdicts)");
   add_comparison_options(o, c, main);
-  main.add_options()("reference", value(p.reference),
-                     "file of the reference scan; empty: the correspondence graph chooses")(
+  main.add_options()(
+      "reference", value(p.reference),
+      "file of the reference scan, or its number in the report; empty: the correspondence graph chooses")(
       "level", po::bool_switch(&p.level),
       "z points up in every scan, within 10 degrees: links are searched upright only")(
       "merge-order", value(c.merge_order),
@@ -184,9 +191,10 @@ po::options_description command_line_only(RegisterOptions& o, std::string& confi
       "force", po::bool_switch(&o.force), "replace an earlier result")(
       "config", po::value(&config), "read options from FILE (name = value); the command line wins")(
       "print-config", po::bool_switch(&o.print_config), "write the effective options to stdout and stop")(
-      "quiet,q", po::bool_switch(&o.quiet), kQuietHelp)(
-      "verbose,v", po::bool_switch(&o.verbose), "say what happens to each scan")("help,h", po::bool_switch(&o.help),
-                                                                                 "this text");
+      "quiet,q", po::bool_switch(&o.quiet), kQuietHelp)("verbose,v", po::bool_switch(&o.verbose),
+                                                        "say what happens to each scan")(
+      "help,h", po::bool_switch(&o.help), "the options used most")("help-all", po::bool_switch(&o.help_all),
+                                                                   "all options");
   return general;
 }
 
@@ -291,7 +299,7 @@ void print_inspect_help(std::ostream& out) {
       << "\nExample: tcm-icp inspect datasets/town/*.ply --init datasets/town/initial_poses.json\n";
 }
 
-void print_register_help(std::ostream& out) {
+void print_register_help(Help which, std::ostream& out) {
   RegisterOptions o;
   Choices choices(o.pipeline);
   std::string config;
@@ -299,9 +307,20 @@ void print_register_help(std::ostream& out) {
          "Puts overlapping LiDAR scans (PLY, LAS, E57, PCD, PTX, PTS, text), wherever each lies, into the frame of\n"
          "one of them. SCAN is a file, a folder, a pattern, or one scan of a file (hall.ptx#2). DIR receives "
          "poses.json,\n"
-         "transforms/, registered.ply, report.json and report.html. Lengths are in the unit of the scans.\n\n"
-      << command_line_only(o, config) << '\n'
-      << configurable(o, choices) << "\nExample: tcm-icp register datasets/town/*.ply --out out/town\n";
+         "transforms/, registered.ply, report.json and report.html. Lengths are in the unit of the scans.\n\n";
+  const po::options_description general = command_line_only(o, config), file_options = configurable(o, choices);
+  if (which == Help::kAll) {
+    out << general << '\n' << file_options;
+  } else {
+    po::options_description most("Options used most; --help-all lists all");
+    for (const char* name : kUsedMost) {
+      const auto* option = general.find_nothrow(name, false);
+      most.add(
+          boost::make_shared<po::option_description>(option != nullptr ? *option : file_options.find(name, false)));
+    }
+    out << most;
+  }
+  out << "\nExample: tcm-icp register datasets/town/*.ply --out out/town\n";
 }
 
 void print_register_config(const RegisterOptions& options, std::ostream& out) {

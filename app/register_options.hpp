@@ -33,6 +33,7 @@ struct RegisterOptions : ScanSetOptions {
   std::string out;
   bool force = false;
   bool print_config = false;
+  bool help_all = false;
 };
 
 struct InspectOptions : ScanSetOptions {
@@ -43,7 +44,8 @@ struct InspectOptions : ScanSetOptions {
 /// @throws InvalidOptions, boost::program_options::error
 RegisterOptions parse_register_options(const Arguments& arguments);
 
-void print_register_help(std::ostream& out);
+enum class Help { kUsedMost, kAll };
+void print_register_help(Help which, std::ostream& out);
 
 /// @throws InvalidOptions, boost::program_options::error
 InspectOptions parse_inspect_options(const Arguments& arguments);

@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "cli_test.hpp"
+#include "result_files.hpp"
 
 namespace tcm_icp::test {
 namespace {
@@ -46,6 +47,12 @@ TEST_F(EndOfRun, TableFitsAndNamesItsUnits) {
   EXPECT_EQ(table.back().find("3 of 3 registered, worst 1 sigma "), 0U) << table.back();
   EXPECT_NE(table.back().find(" mm (Ernst-Reuter-Platz_Süd Setup 00"), std::string::npos) << "the whole name";
   EXPECT_TRUE(table.back().ends_with(", open result/report.html")) << table.back();
+}
+
+TEST_F(EndOfRun, NumberOfAScanNamesTheReference) {
+  const Words fast{"--out", "result", "--profile", "paper", "--reference", "1"};
+  ASSERT_EQ(run(Words{"register"} + fast + town_scans({5, 4, 3}) + kSmall).exit_code, 0);
+  EXPECT_EQ(read_json(folder() / "result/poses.json")["reference"], "004.ply");
 }
 
 TEST_F(EndOfRun, SaysWhatIsNotVerified) {

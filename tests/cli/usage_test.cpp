@@ -1,5 +1,7 @@
 // Options of `tcm-icp register`: what is refused, what is told, and what an option file does.
 
+#include <algorithm>
+
 #include "cli_test.hpp"
 
 namespace tcm_icp::test {
@@ -97,6 +99,8 @@ TEST_F(Usage, RefusesNumbersOutOfBounds) {
   expect_bad({"--threads", "-1"}, {"threads", "-1"});
   expect_bad({"--threads", "two"}, {"threads", "two"});
   expect_bad({"--seed", "-1"}, {"--seed", "-1"});
+  expect_bad({"--reference", "2"}, {"--reference 2", "0 to 1"});
+  expect_bad({"--reference", "c.xyz"}, {"--reference c.xyz", "no scan of that name"});
   expect_bad({"--sampling.fine-voxels=-3"}, {"sampling.fine-voxels", "-3"});
   expect_bad({"--sampling.coarse-voxels", "5"}, {"coarse_voxels", "5", "100"});
   expect_bad({"--lp.max-pivots", "0"}, {"max_pivots", "0"});
@@ -106,8 +110,17 @@ TEST_F(Usage, RefusesNumbersOutOfBounds) {
   expect_bad({"--annealing.final-temperature", "0"}, {"final_temperature", "0"});
 }
 
-TEST_F(Usage, HelpGoesToStdoutAndNamesEveryOption) {
+TEST_F(Usage, HelpFitsAPage) {
   const RunResult help = run({"register", "--help"});
+  EXPECT_EQ(help.exit_code, 0);
+  EXPECT_LT(std::count(help.out.begin(), help.out.end(), '\n'), 60) << help.out;
+  for (const char* option : {"--out", "--reference", "--help-all"}) {
+    EXPECT_NE(help.out.find(option), std::string::npos) << option;
+  }
+}
+
+TEST_F(Usage, HelpGoesToStdoutAndNamesEveryOption) {
+  const RunResult help = run({"register", "--help-all"});
   EXPECT_EQ(help.exit_code, 0);
   EXPECT_EQ(help.err, "");
   for (const char* option : {"--out", "--force", "--config", "--print-config", "--quiet", "--verbose", "--help"}) {

@@ -1,6 +1,7 @@
 #include "pipeline/scan_set.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <optional>
 #include <set>
 #include <string>
@@ -35,7 +36,14 @@ std::size_t find_scan(const std::vector<std::filesystem::path>& paths, const std
   for (std::size_t i = 0; i < paths.size(); ++i) {
     if (names[i] == name || paths[i] == name) return i;
   }
-  throw InvalidOptions("--reference " + name + ": no scan of that name; it must be one of the files given");
+  std::size_t number = 0;
+  const char* const end = name.data() + name.size();
+  const auto [rest, error] = std::from_chars(name.data(), end, number);
+  if (name.empty() || rest != end || error != std::errc()) {
+    throw InvalidOptions("--reference " + name + ": no scan of that name; it must be one of the files given");
+  }
+  if (number < paths.size()) return number;
+  throw InvalidOptions("--reference " + name + ": the scans have the numbers 0 to " + std::to_string(paths.size() - 1));
 }
 
 void check_paths(const std::vector<std::filesystem::path>& paths, const InitialPoses& initial_poses) {
