@@ -21,6 +21,7 @@ namespace po = boost::program_options;
 
 struct Request {
   std::string scans, poses, truth, json, bin;
+  std::vector<std::string> units;
   ScoreOptions options;
   std::size_t rms_points = 50000;
   std::size_t cloud_points = 200000;
@@ -35,6 +36,7 @@ po::options_description describe(Request& r) {
       ("poses", po::value(&r.poses)->required(), "poses.json of 'tcm-icp register'")                       //
       ("truth", po::value(&r.truth)->required(), "truth.json of the scene")                                //
       ("bin", po::value(&r.bin), kBinHelp)                                                                 //
+      ("unit", po::value(&r.units), kUnitHelp)                                                             //
       ("json", po::value(&r.json), "write the figures here as well")                                       //
       ("min-overlap", bind_option(&r.options.min_overlap),
        "true overlap (0..1) from which a pair counts for registration recall")  //
@@ -127,24 +129,25 @@ Estimates match(const Truth& truth, const PoseFile& file, const fs::path& path) 
   return out;
 }
 
-fs::path path_of(const Request& r, const std::string& file) {
-  return with_layout(fs::path(r.scans) / file, parse_bin(r.bin));
-}
-
 Evaluation evaluate(const Request& r, const po::variables_map& given) {
   Evaluation out;
   out.truth = read_truth(r.truth);
   if (given.count("max-rotation") > 0) out.truth.tolerance.rotation_deg = r.max_rotation_deg;
   if (given.count("max-rmse") > 0) out.truth.tolerance.rmse_m = r.max_rmse;
+  std::vector<fs::path> paths;
+  for (const auto& scan : out.truth.scans) {
+    paths.push_back(with_layout(fs::path(r.scans) / scan.file, parse_bin(r.bin)));
+  }
+  paths = with_units(paths, r.units);
   const Estimates estimates = match(out.truth, read_pose_file(r.poses), r.poses);
   std::vector<std::uint64_t> counts;
-  for (const auto& scan : out.truth.scans) counts.push_back(count_points(path_of(r, scan.file)));
+  for (const auto& path : paths) counts.push_back(count_points(path));
   const auto shares = share_out(std::max(r.cloud_points, r.rms_points), counts);
   std::vector<Points> thinned, drawn;
   for (std::size_t i = 0; i < counts.size(); ++i) {
     const std::string& file = out.truth.scans[i].file;
     Rng rng = make_stream(r.seed, "evaluate", file);
-    Samples samples = sample(path_of(r, file), counts[i], shares[i], rng);
+    Samples samples = sample(paths[i], counts[i], shares[i], rng);
     thinned.push_back(std::move(samples.thinned));
     drawn.push_back(std::move(samples.drawn));
   }

@@ -54,7 +54,7 @@ int cmd_register(const Arguments& arguments) {
   if (o.method != Method::kTcm) check_built_in(o.method);
   const std::string started = time_now();
   const ScanInputs inputs = find_scans(o.scans, parse_bin(o.bin));
-  const auto& paths = inputs.scans;
+  const auto paths = with_units(inputs.scans, o.units);
   check_number(paths.size());
   check_output_folder(o.out, o.force);
   const InitialPoses guess = read_guess(o, paths);

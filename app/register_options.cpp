@@ -107,6 +107,7 @@ void add_comparison_options(ScanSetOptions& o, Choices& c, po::options_descripti
       "init", value(o.initial_poses),
       "file of initial poses, where there are any, as poses.json or truth.json has them; headers: those in the "
       "headers of PTX and E57 scans, as of one common frame")("bin", value(o.bin), kBinHelp)(
+      "unit", po::value(&o.units), kUnitHelp)(
       "graph-threshold", value(o.pipeline.graph_threshold),
       "correspondence measure below which two scans are connected, at initial poses; 0: from the data")(
       "seed", value(o.seed), "seed of all random numbers")("threads", value(o.threads), kThreadsHelp);
@@ -141,9 +142,9 @@ po::options_description sampling_options(PipelineOptions& p) {
 }
 
 // What `register --help` shows: what to write, how to run, and what most sets of scans may need.
-constexpr std::array kUsedMost{"out",     "force",   "config",     "init",     "bin",     "reference",
-                               "level",   "profile", "confidence", "outliers", "method",  "seed",
-                               "threads", "quiet",   "verbose",    "help",     "help-all"};
+constexpr std::array kUsedMost{"out",       "force",   "config",  "init",       "bin",      "unit",
+                               "reference", "level",   "profile", "confidence", "outliers", "method",
+                               "seed",      "threads", "quiet",   "verbose",    "help",     "help-all"};
 
 // Options that may stand in a file, too.
 po::options_description configurable(RegisterOptions& o, Choices& c) {
@@ -332,7 +333,9 @@ void print_register_config(const RegisterOptions& options, std::ostream& out) {
   po::variables_map map;
   po::store(po::command_line_parser(Arguments{}).options(description).run(), map);
   out << "# tcm-icp register --config FILE\n" << std::setprecision(std::numeric_limits<double>::max_digits10);
+  for (const auto& unit : o.units) out << "unit = " << unit << '\n';
   for (const auto& option : description.options()) {
+    if (option->long_name() == "unit") continue;  // as many as were given, or none
     const boost::any& v = map[option->long_name()].value();
     out << option->long_name() << " = ";
     if (const auto* text = boost::any_cast<std::string>(&v)) out << *text;

@@ -18,7 +18,8 @@ struct ScanSetOptions {
   PipelineOptions pipeline;
   std::vector<std::string> scans;
   std::string initial_poses;
-  std::string bin;  ///< what .bin files are
+  std::string bin;                 ///< what .bin files are
+  std::vector<std::string> units;  ///< of coordinates: UNIT, or SCAN=UNIT
   std::uint64_t seed = 42;
   int threads = 0;  ///< 0: as many as the machine has
   bool quiet = false;

@@ -39,6 +39,48 @@ BinLayout parse_bin(const std::string& text) {
                        did_you_mean(text, {"kitti", "nuscenes"}));
 }
 
+namespace {
+
+LengthUnit parse_unit(const std::string& option, const std::string& name) {
+  if (const auto unit = unit_from_name(name)) return *unit;
+  throw InvalidOptions("--unit " + option + ": choose one of m, mm, ft, us-ft" +
+                       did_you_mean(name, {"m", "mm", "ft", "us-ft"}));
+}
+
+bool is_called(const std::string& name, const std::filesystem::path& scan, const std::string& scan_name,
+               std::size_t number) {
+  const std::filesystem::path file = parse_scan_path(scan).file;
+  return name == scan_name || name == scan || name == file || name == file.filename() || name == std::to_string(number);
+}
+
+}  // namespace
+
+std::vector<std::filesystem::path> with_units(const std::vector<std::filesystem::path>& scans,
+                                              const std::vector<std::string>& units) {
+  const std::vector<std::string> names = scan_names(scans);
+  std::vector<std::filesystem::path> out = scans;
+  for (const auto& option : units) {
+    if (option.find('=') != std::string::npos) continue;
+    for (auto& scan : out) scan = with_unit(scan, parse_unit(option, option));
+  }
+  for (const auto& option : units) {
+    const std::size_t mark = option.rfind('=');
+    if (mark == std::string::npos) continue;
+    const std::string name = option.substr(0, mark);
+    const LengthUnit unit = parse_unit(option, option.substr(mark + 1));
+    bool found = false;
+    for (std::size_t i = 0; i < scans.size(); ++i) {
+      if (!is_called(name, scans[i], names[i], i)) continue;
+      out[i] = with_unit(scans[i], unit);
+      found = true;
+    }
+    if (!found) {
+      throw InvalidOptions("--unit " + option + ": no scan is called '" + name + "'" + did_you_mean(name, names));
+    }
+  }
+  return out;
+}
+
 void report_left_out(const ScanInputs& inputs, const RunContext& context) {
   constexpr std::size_t kMost = 5;  // a folder may hold a thousand photos
   for (std::size_t i = 0; i < std::min(kMost, inputs.left_out.size()); ++i) {

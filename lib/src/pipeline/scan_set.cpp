@@ -84,9 +84,12 @@ std::vector<SampledScan> read_scans(const std::vector<std::filesystem::path>& pa
 }
 
 ScanSummary summarize(const SampledScan& s) {
-  return {s.scan.file,      s.scan.num_raw_points, s.scan.num_dropped_points, s.scan.cloud.size(), s.scan.voxel_size_m,
-          s.scan.spacing_m, s.scan.noise_m,        s.scan.extent_m,           s.outliers,          s.scan.origin,
-          s.middle};
+  return {s.scan.file,           name_of(parse_scan_path(s.scan.path).unit),
+          s.scan.num_raw_points, s.scan.num_dropped_points,
+          s.scan.cloud.size(),   s.scan.voxel_size_m,
+          s.scan.spacing_m,      s.scan.noise_m,
+          s.scan.extent_m,       s.outliers,
+          s.scan.origin,         s.middle};
 }
 
 std::vector<PreparedScan> prepare_scans(std::vector<SampledScan>& scans, const Resolutions& resolutions,
