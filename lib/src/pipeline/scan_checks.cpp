@@ -7,7 +7,6 @@
 #include <optional>
 
 #include "tcm_icp/core/error.hpp"
-#include "tcm_icp/core/statistics.hpp"
 
 namespace tcm_icp {
 namespace {
@@ -50,6 +49,13 @@ struct Comparison {
   double spread = 0;     ///< of the others' figures
 };
 
+// The lower of two in the middle, not their mean: half of the others in millimetres must not make up a unit between.
+double lower_median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>((values.size() - 1) / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
 // One for each figure that all scans have.
 std::vector<Comparison> compare(const std::vector<Figures>& figures, std::size_t scan) {
   std::vector<Comparison> out;
@@ -59,7 +65,7 @@ std::vector<Comparison> compare(const std::vector<Figures>& figures, std::size_t
     for (std::size_t j = 0; j < figures.size(); ++j) {
       if (j != scan) others.push_back(figures[j][k]);
     }
-    const double middle = median(others);
+    const double middle = lower_median(others);
     double squares = 0;
     for (const double value : others) squares += std::pow(without_thousands(value - middle), 2);
     const double own = std::sqrt(squares / static_cast<double>(others.size()));
