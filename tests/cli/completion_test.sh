@@ -2,7 +2,7 @@
 # completion_test.sh TCM_ICP COMPLETIONS: what bash offers, and that the choices of options, written down in three files,
 # are those that the program takes.
 set -u
-export PATH="$(dirname "$1"):$PATH"
+PATH="$(dirname "$1"):$PATH"
 failures=0
 fail() { echo "FAILED: $*"; failures=$((failures + 1)); }
 
