@@ -77,6 +77,9 @@ TEST_F(Units, GiveTheSameRegistrationInMetres) {
   for (std::size_t i : {1, 2}) {
     EXPECT_LT(difference_m(a.scans[i].T_reference_scan, b.scans[i].T_reference_scan, kRadius_m), kTolerance_m);
   }
+  EXPECT_EQ(a.scans[1].unit, "m");
+  EXPECT_EQ(b.scans[1].unit, "mm");
+  EXPECT_EQ(b.scans[2].unit, "m");
   const auto report = read_json(folder() / "mixed/report.json");
   EXPECT_EQ(report["scans"][1]["unit"], "mm");
   EXPECT_EQ(report["warnings"], nlohmann::json::array());

@@ -104,6 +104,7 @@ PipelineResult run_pairs(const std::vector<std::filesystem::path>& paths, const 
   result.graph.reference = result.reference;
   for (std::size_t i = 0; i < n; ++i) {
     result.poses.push_back(scan_pose(scans, i, result.reference, poses[i], converged[i], name));
+    result.poses[i].unit = result.scans[i].unit;
   }
   result.evidence.assign(n, std::nullopt);
   result.pairs = std::move(fits.pairs);

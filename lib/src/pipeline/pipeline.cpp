@@ -49,6 +49,7 @@ PipelineResult Pipeline::run(const std::vector<std::filesystem::path>& paths, co
   (paper ? run_paper_pipeline : run_robust_pipeline)({sampled, files, guesses, options, context, clock}, result);
   clock.end();
   restore_order(order, result);
+  for (std::size_t i = 0; i < paths.size(); ++i) result.poses[i].unit = result.scans[i].unit;
   return result;
 }
 
