@@ -5,12 +5,12 @@
 #include <cstring>
 #include <iostream>
 #include <set>
-#include <thread>
 
 #include "command.hpp"
 #include "console.hpp"
 #include "degradation_report.hpp"
 #include "option_binding.hpp"
+#include "parse_arguments.hpp"
 #include "run_setup.hpp"
 #include "tcm_icp/core/error.hpp"
 #include "tcm_icp/evaluation/degradation.hpp"
@@ -30,6 +30,7 @@ struct Request {
   std::vector<std::string> scans;
   std::string out, bin;
   DegradationOptions options;
+  RunOptions run;
   RunContext context;
 };
 
@@ -47,12 +48,12 @@ po::options_description describe(Request& r) {
       ("isolated", bind_option(&o.isolated_share), "share added away from all surfaces");
   po::options_description run("Run", 110);
   run.add_options()("out", po::value(&r.out)->required(),
-                    "folder to make: the scans under their names, degraded.json")             //
-      ("bin", po::value(&r.bin), kBinHelp)                                                    //
-      ("force", "replace an earlier result in that folder")                                   //
-      ("seed", bind_option(&r.context.seed), "the same seed gives the same bytes")            //
-      ("threads", bind_option(&r.context.num_threads), "changes the time, never the result")  //
+                    "folder to make: the scans under their names, degraded.json")   //
+      ("bin", po::value(&r.bin), kBinHelp)                                          //
+      ("force", "replace an earlier result in that folder")                         //
+      ("seed", bind_option(&r.context.seed), "the same seed gives the same bytes")  //
       ("help,h", "this text");
+  add_run_options(r.run, run);
   return what.add(run);
 }
 
@@ -124,13 +125,10 @@ DegradedFile degrade_file(const fs::path& path, const std::string& name, const f
 
 int cmd_degrade(const Arguments& arguments) {
   Request request;
-  request.context.num_threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   const po::options_description visible = describe(request);
   const po::options_description all = with_scans(request, visible);
-  po::positional_options_description positional;
-  positional.add("scan", -1);
   po::variables_map given;
-  po::store(po::command_line_parser(arguments).options(all).positional(positional).run(), given);
+  po::store(parse_arguments(arguments, all, "scan"), given);
   if (given.count("help") > 0) {
     std::cout
         << "Usage: tcm-icp degrade SCAN... --out DIR [--noise P] [--isolated P] [--occlusion P] [--remove P] [--blur "
@@ -144,12 +142,11 @@ int cmd_degrade(const Arguments& arguments) {
   }
   po::notify(given);
   request.options.validate();
-  if (request.context.num_threads < 1)
-    throw InvalidOptions("--threads = " + std::to_string(request.context.num_threads) + "; needs >= 1");
+  request.context.num_threads = num_threads(request.run.threads);
   const ScanInputs inputs = find_and_check(request.scans, parse_bin(request.bin));
   const std::vector<std::string> names = scan_names(inputs.scans);
   catch_interrupts();
-  Console console(/*quiet=*/false, /*verbose=*/false);
+  Console console(request.run.quiet, request.run.verbose);
   request.context.log = [&](LogLevel level, std::string_view message) { console.log(level, message); };
   report_left_out(inputs, request.context);
   request.context.on_progress = [&](const Progress& p) { return console.progress(p); };
@@ -162,7 +159,7 @@ int cmd_degrade(const Arguments& arguments) {
   write_degradation(report, folder.work() / "degraded.json");
   folder.commit();
   console.finish();
-  print_degradation(report, std::cout);
+  if (!request.run.quiet) print_degradation(report, std::cout);
   return kSuccess;
 }
 

@@ -3,11 +3,11 @@
 #include <boost/program_options.hpp>
 #include <iostream>
 #include <map>
-#include <thread>
 
 #include "command.hpp"
 #include "evaluation_report.hpp"
 #include "option_binding.hpp"
+#include "parse_arguments.hpp"
 #include "run_setup.hpp"
 #include "tcm_icp/core/error.hpp"
 #include "tcm_icp/io/pose_io.hpp"
@@ -21,11 +21,12 @@ namespace po = boost::program_options;
 
 struct Request {
   std::string scans, poses, truth, json, bin;
+  std::vector<std::string> units;
   ScoreOptions options;
   std::size_t rms_points = 50000;
   std::size_t cloud_points = 200000;
   std::uint64_t seed = 42;
-  int threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  RunOptions run;
   double max_rotation_deg = 0, max_rmse = 0;
 };
 
@@ -35,6 +36,7 @@ po::options_description describe(Request& r) {
       ("poses", po::value(&r.poses)->required(), "poses.json of 'tcm-icp register'")                       //
       ("truth", po::value(&r.truth)->required(), "truth.json of the scene")                                //
       ("bin", po::value(&r.bin), kBinHelp)                                                                 //
+      ("unit", po::value(&r.units), kUnitHelp)                                                             //
       ("json", po::value(&r.json), "write the figures here as well")                                       //
       ("min-overlap", bind_option(&r.options.min_overlap),
        "true overlap (0..1) from which a pair counts for registration recall")  //
@@ -47,15 +49,15 @@ po::options_description describe(Request& r) {
       ("cloud-points", bind_option(&r.cloud_points),
        "points, shared out among all scans, that stand for the clouds whose distance is measured")  //
       ("seed", bind_option(&r.seed), "of both draws")                                               //
-      ("threads", bind_option(&r.threads), "changes the time, never the result")                    //
       ("help,h", "this text");
+  add_run_options(r.run, what);
   return what;
 }
 
 void validate(const Request& r, const po::variables_map& given) {
   r.options.validate();
   if (r.rms_points < 1 || r.cloud_points < 1) throw InvalidOptions("--rms-points and --cloud-points need 1 or more");
-  if (r.threads < 1) throw InvalidOptions("--threads = " + std::to_string(r.threads) + "; needs >= 1");
+  num_threads(r.run.threads);
   for (const auto& [name, value] : {std::pair("max-rotation", r.max_rotation_deg), {"max-rmse", r.max_rmse}})
     if (given.count(name) > 0 && !(value > 0))
       throw InvalidOptions("--" + std::string(name) + " = " + std::to_string(value) + "; needs > 0");
@@ -127,30 +129,32 @@ Estimates match(const Truth& truth, const PoseFile& file, const fs::path& path) 
   return out;
 }
 
-fs::path path_of(const Request& r, const std::string& file) {
-  return with_layout(fs::path(r.scans) / file, parse_bin(r.bin));
-}
-
 Evaluation evaluate(const Request& r, const po::variables_map& given) {
   Evaluation out;
   out.truth = read_truth(r.truth);
   if (given.count("max-rotation") > 0) out.truth.tolerance.rotation_deg = r.max_rotation_deg;
   if (given.count("max-rmse") > 0) out.truth.tolerance.rmse_m = r.max_rmse;
+  std::vector<fs::path> paths;
+  for (const auto& scan : out.truth.scans) {
+    paths.push_back(with_layout(fs::path(r.scans) / scan.file, parse_bin(r.bin)));
+  }
+  paths = with_units(paths, r.units);
   const Estimates estimates = match(out.truth, read_pose_file(r.poses), r.poses);
   std::vector<std::uint64_t> counts;
-  for (const auto& scan : out.truth.scans) counts.push_back(count_points(path_of(r, scan.file)));
+  for (const auto& path : paths) counts.push_back(count_points(path));
   const auto shares = share_out(std::max(r.cloud_points, r.rms_points), counts);
   std::vector<Points> thinned, drawn;
   for (std::size_t i = 0; i < counts.size(); ++i) {
     const std::string& file = out.truth.scans[i].file;
     Rng rng = make_stream(r.seed, "evaluate", file);
-    Samples samples = sample(path_of(r, file), counts[i], shares[i], rng);
+    Samples samples = sample(paths[i], counts[i], shares[i], rng);
     thinned.push_back(std::move(samples.thinned));
     drawn.push_back(std::move(samples.drawn));
   }
   out.score = score_poses(out.truth, estimates.poses, estimates.reference, thinned, r.options);
   Rng rng = make_stream(r.seed, "evaluate rms");
-  out.clouds = compare_clouds(out.truth, estimates.poses, estimates.reference, drawn, r.rms_points, rng, r.threads);
+  out.clouds = compare_clouds(out.truth, estimates.poses, estimates.reference, drawn, r.rms_points, rng,
+                              num_threads(r.run.threads));
   out.min_overlap = r.options.min_overlap;
   out.seed = r.seed;
   return out;
@@ -162,7 +166,7 @@ int cmd_evaluate(const Arguments& arguments) {
   Request request;
   const po::options_description description = describe(request);
   po::variables_map given;
-  po::store(po::command_line_parser(arguments).options(description).positional({}).run(), given);
+  po::store(parse_arguments(arguments, description), given);
   if (given.count("help") > 0) {
     std::cout
         << "Usage: tcm-icp evaluate --scans DIR --poses POSES.json --truth TRUTH.json [--json FILE]\n"

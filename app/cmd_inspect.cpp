@@ -116,7 +116,7 @@ int cmd_inspect(const Arguments& arguments) {
   }
   if (o.scans.empty()) throw InvalidOptions("no scan is given; name the files: tcm-icp inspect SCAN...");
   const ScanInputs inputs = find_scans(o.scans, parse_bin(o.bin));
-  const auto& paths = inputs.scans;
+  const auto paths = with_units(inputs.scans, o.units);
   const InitialPoses guess = read_guess(o, paths);
 
   catch_interrupts();

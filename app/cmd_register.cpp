@@ -12,6 +12,7 @@
 #include "tcm_icp/pipeline/pair_pipeline.hpp"
 #include "tcm_icp/pipeline/pipeline.hpp"
 #include "tcm_icp/pipeline/result_writer.hpp"
+#include "text_width.hpp"
 #include "version.hpp"
 
 namespace tcm_icp::app {
@@ -41,8 +42,8 @@ PipelineResult run_method(const RegisterOptions& o, const std::vector<std::files
 
 int cmd_register(const Arguments& arguments) {
   const RegisterOptions o = parse_register_options(arguments);
-  if (o.help) {
-    print_register_help(std::cout);
+  if (o.help || o.help_all) {
+    print_register_help(o.help_all ? Help::kAll : Help::kUsedMost, std::cout);
     return kSuccess;
   }
   if (o.print_config) {
@@ -53,7 +54,7 @@ int cmd_register(const Arguments& arguments) {
   if (o.method != Method::kTcm) check_built_in(o.method);
   const std::string started = time_now();
   const ScanInputs inputs = find_scans(o.scans, parse_bin(o.bin));
-  const auto& paths = inputs.scans;
+  const auto paths = with_units(inputs.scans, o.units);
   check_number(paths.size());
   check_output_folder(o.out, o.force);
   const InitialPoses guess = read_guess(o, paths);
@@ -68,7 +69,11 @@ int cmd_register(const Arguments& arguments) {
   write_result(o.out, o.force, paths, result, o.pipeline, o.clouds, context,
                {kVersion, command_line("register", arguments), o.initial_poses, started});
   console.finish();
-  if (!o.quiet) print_register_table(result, std::cerr);
+  if (!o.quiet) {
+    const bool verified = o.method == Method::kTcm && o.pipeline.profile == Profile::kRobust;
+    print_register_table(result, terminal_width(), std::cerr);
+    std::cerr << register_summary(result, verified, std::filesystem::path(o.out) / "report.html") << '\n';
+  }
   return result.all_registered() ? kSuccess : kSomeUnregistered;
 }
 

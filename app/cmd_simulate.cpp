@@ -2,11 +2,12 @@
 
 #include <boost/program_options.hpp>
 #include <iostream>
-#include <thread>
 
 #include "command.hpp"
 #include "console.hpp"
 #include "option_binding.hpp"
+#include "parse_arguments.hpp"
+#include "suggestion.hpp"
 #include "tcm_icp/core/error.hpp"
 #include "tcm_icp/io/output_folder.hpp"
 #include "tcm_icp/simulation/scene_set.hpp"
@@ -23,6 +24,7 @@ struct Request {
   std::string sensor;
   double overlap = 0;
   std::vector<double> initial_guess;
+  RunOptions run;
   RunContext context;
 };
 
@@ -79,13 +81,31 @@ po::options_description describe(Request& r) {
        "choose the spacing so that neighbouring scans share about this much (0.05..0.95)")               //
       ("clutter", bind_option(&s.bays.clutter), "of bays: things a bay, which tell it from the others")  //
       ("seed", bind_option(&r.context.seed), "the same seed gives the same bytes")                       //
-      ("threads", bind_option(&r.context.num_threads), "changes the time, never the result")             //
       ("out", po::value(&r.out)->required(), "folder to make: 000.ply ..., truth.json")                  //
       ("force", "replace an earlier result in that folder")                                              //
       ("initial-guess", po::value(&r.initial_guess)->multitoken()->value_name("DEG METRES"),
        "also write initial_poses.json: the truth, off by 0.6 to 1 times this turn and shift; the first scan exact")  //
       ("help,h", "this text");
+  add_run_options(r.run, what);
   return what.add(describe_sensor(r)).add(describe_frames(s));
+}
+
+SceneKind scene_asked(const std::string& name) {
+  std::vector<std::string> known;
+  for (const SceneKind kind : scene_kinds()) known.push_back(scene_name(kind));
+  try {
+    return scene_kind_from_name(name);
+  } catch (const InvalidOptions& e) {
+    throw InvalidOptions(e.what() + did_you_mean(name, known));
+  }
+}
+
+SensorKind sensor_asked(const std::string& name) {
+  try {
+    return sensor_kind_from_name(name);
+  } catch (const InvalidOptions& e) {
+    throw InvalidOptions(e.what() + did_you_mean(name, {"terrestrial", "spinning", "aerial"}));
+  }
 }
 
 /// What --scene and --sensor ask for, before anything else is read: the other options' defaults depend on it.
@@ -94,10 +114,11 @@ SceneSetOptions asked_defaults(const Arguments& arguments) {
   po::options_description kinds;
   kinds.add_options()("scene", po::value(&scene))("sensor", po::value(&sensor));
   po::variables_map given;
-  po::store(po::command_line_parser(arguments).options(kinds).allow_unregistered().run(), given);
+  constexpr int kStyle = po::command_line_style::unix_style & ~po::command_line_style::allow_guessing;
+  po::store(po::command_line_parser(arguments).options(kinds).allow_unregistered().style(kStyle).run(), given);
   po::notify(given);
-  SceneSetOptions options = default_scene_set(scene_kind_from_name(scene));
-  if (!sensor.empty()) use_sensor(options, sensor_kind_from_name(sensor));
+  SceneSetOptions options = default_scene_set(scene_asked(scene));
+  if (!sensor.empty()) use_sensor(options, sensor_asked(sensor));
   return options;
 }
 
@@ -117,13 +138,12 @@ void print_summary(const SceneSet& set, std::ostream& out) {
 
 int cmd_simulate(const Arguments& arguments) {
   Request request;
-  request.context.num_threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   request.scenes = asked_defaults(arguments);
   request.scene = scene_name(request.scenes.scene);
   request.sensor = sensor_name(request.scenes.scanner.sensor);
   const po::options_description description = describe(request);
   po::variables_map given;
-  po::store(po::command_line_parser(arguments).options(description).positional({}).run(), given);
+  po::store(parse_arguments(arguments, description), given);
   if (given.count("help") > 0) {
     std::cout << "Usage: tcm-icp simulate --scene town|block|street|urban|canopy|interior|plaza|bays --scans N "
                  "--out DIR [--seed N] ...\n"
@@ -137,11 +157,10 @@ int cmd_simulate(const Arguments& arguments) {
     if (request.initial_guess.size() != 2) throw InvalidOptions("--initial-guess needs two numbers: DEG METRES");
     request.scenes.initial_guess = PosePerturbation{request.initial_guess[0], request.initial_guess[1]};
   }
-  if (request.context.num_threads < 1)
-    throw InvalidOptions("--threads = " + std::to_string(request.context.num_threads) + "; needs >= 1");
+  request.context.num_threads = num_threads(request.run.threads);
   request.scenes.validate();
   catch_interrupts();
-  Console console(/*quiet=*/false, /*verbose=*/false);
+  Console console(request.run.quiet, request.run.verbose);
   request.context.on_progress = [&](const Progress& p) { return console.progress(p); };
   OutputFolder folder(request.out, given.count("force") > 0, "truth.json");
   const SceneSet set = simulate_scene_set(request.scenes, request.context);
@@ -149,7 +168,7 @@ int cmd_simulate(const Arguments& arguments) {
   write_scene_set(set, folder.work());
   folder.commit();
   console.finish();
-  print_summary(set, std::cerr);
+  if (!request.run.quiet) print_summary(set, std::cerr);
   return kSuccess;
 }
 

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "command.hpp"
+#include "suggestion.hpp"
 #include "tcm_icp/core/error.hpp"
 #include "version.hpp"
 
@@ -67,7 +68,10 @@ int run(int argc, char** argv) {
   for (const auto& c : kCommands) {
     if (c.name == name) return with_stdout_written(c.run(Arguments(argv + 2, argv + argc)));
   }
-  return fail(kUsageError, "unknown command '" + std::string(name) + "'; 'tcm-icp --help' lists the commands");
+  std::vector<std::string> known;
+  for (const auto& c : kCommands) known.emplace_back(c.name);
+  return fail(kUsageError, joined("unknown command '" + std::string(name) + "'" + did_you_mean(name, known),
+                                  "'tcm-icp --help' lists the commands"));
 }
 
 }  // namespace
@@ -82,7 +86,7 @@ int main(int argc, char** argv) {
     return fail(kUsageError, e.what());
   } catch (const boost::program_options::error& e) {
     return fail(kUsageError,
-                std::string(e.what()) + "; 'tcm-icp " + (argc > 1 ? argv[1] : "") + " --help' lists the options");
+                joined(e.what(), std::string("'tcm-icp ") + (argc > 1 ? argv[1] : "") + " --help' lists the options"));
   } catch (const tcm_icp::OutputError& e) {
     return fail(kOutputError, e.what());
   } catch (const tcm_icp::Error& e) {

@@ -1,8 +1,8 @@
 #include "register_options.hpp"
 
 #include <array>
+#include <boost/make_shared.hpp>
 #include <boost/program_options/parsers.hpp>
-#include <boost/program_options/positional_options.hpp>
 #include <boost/program_options/value_semantic.hpp>
 #include <charconv>
 #include <cmath>
@@ -13,7 +13,9 @@
 #include <utility>
 
 #include "option_binding.hpp"
+#include "parse_arguments.hpp"
 #include "run_setup.hpp"
+#include "suggestion.hpp"
 #include "tcm_icp/core/error.hpp"
 
 namespace tcm_icp::app {
@@ -29,11 +31,14 @@ struct Names {
 
   Enum parse(const std::string& text) const {
     std::string all;
+    std::vector<std::string> known;
     for (const auto& [name, value] : entries) {
       if (text == name) return value;
       all += (all.empty() ? "" : ", ") + std::string(name);
+      known.emplace_back(name);
     }
-    throw InvalidOptions(std::string("--") + option + " '" + text + "': choose one of " + all);
+    throw InvalidOptions(std::string("--") + option + " '" + text + "': choose one of " + all +
+                         did_you_mean(text, known));
   }
   const char* name(Enum wanted) const {
     for (const auto& [name, value] : entries) {
@@ -128,10 +133,10 @@ void add_comparison_options(ScanSetOptions& o, Choices& c, po::options_descripti
       "init", value(o.initial_poses),
       "file of initial poses, where there are any, as poses.json or truth.json has them; headers: those in the "
       "headers of PTX and E57 scans, as of one common frame")("bin", value(o.bin), kBinHelp)(
+      "unit", po::value(&o.units), kUnitHelp)(
       "graph-threshold", value(o.pipeline.graph_threshold),
       "correspondence measure below which two scans are connected, at initial poses; 0: from the data")(
-      "seed", value(o.seed), "seed of all random numbers")(
-      "threads", value(o.threads), "threads; 0: all of the machine; the result is the same for any number");
+      "seed", value(o.seed), "seed of all random numbers")("threads", value(o.threads), kThreadsHelp);
 }
 
 po::options_description outlier_options(PipelineOptions& p, Choices& c) {
@@ -173,6 +178,11 @@ po::options_description cloud_options(OutputOptions& o, Choices& c) {
   return clouds;
 }
 
+// What `register --help` shows: what to write, how to run, and what most sets of scans may need.
+constexpr std::array kUsedMost{"out",  "force",     "config", "format",  "each",       "init",     "bin",
+                               "unit", "reference", "level",  "profile", "confidence", "outliers", "method",
+                               "seed", "threads",   "quiet",  "verbose", "help",       "help-all"};
+
 // Options that may stand in a file, too.
 po::options_description configurable(RegisterOptions& o, Choices& c) {
   PipelineOptions& p = o.pipeline;
@@ -181,8 +191,9 @@ po::options_description configurable(RegisterOptions& o, Choices& c) {
                      "tcm: this program's; icp, features: conventional ones to compare with (no outlier removal unless "
                      "asked for, no verdicts)");
   add_comparison_options(o, c, main);
-  main.add_options()("reference", value(p.reference),
-                     "file of the reference scan; empty: the correspondence graph chooses")(
+  main.add_options()(
+      "reference", value(p.reference),
+      "file of the reference scan, or its number in the report; empty: the correspondence graph chooses")(
       "level", po::bool_switch(&p.level)->default_value(p.level),
       "z points up in every scan, within 10 degrees: links are searched upright only")(
       "merge-order", value(c.merge_order),
@@ -218,9 +229,10 @@ po::options_description command_line_only(RegisterOptions& o, std::string& confi
       "force", po::bool_switch(&o.force), "replace an earlier result")(
       "config", po::value(&config), "read options from FILE (name = value); the command line wins")(
       "print-config", po::bool_switch(&o.print_config), "write the effective options to stdout and stop")(
-      "quiet,q", po::bool_switch(&o.quiet), "no progress, no table; errors and warnings only")(
-      "verbose,v", po::bool_switch(&o.verbose), "say what happens to each scan")("help,h", po::bool_switch(&o.help),
-                                                                                 "this text");
+      "quiet,q", po::bool_switch(&o.quiet), kQuietHelp)("verbose,v", po::bool_switch(&o.verbose),
+                                                        "say what happens to each scan")(
+      "help,h", po::bool_switch(&o.help), "the options used most")("help-all", po::bool_switch(&o.help_all),
+                                                                   "all options");
   return general;
 }
 
@@ -228,19 +240,16 @@ po::options_description inspect_description(InspectOptions& o, Choices& c) {
   po::options_description all("Options");
   all.add_options()("json", po::bool_switch(&o.json), "write JSON in place of the tables");
   add_comparison_options(o, c, all);
-  all.add_options()("quiet,q", po::bool_switch(&o.quiet), "no progress; errors and warnings only")(
-      "help,h", po::bool_switch(&o.help), "this text");
+  all.add_options()("quiet,q", po::bool_switch(&o.quiet), kQuietHelp)(
+      "verbose,v", po::bool_switch(&o.verbose), kVerboseHelp)("help,h", po::bool_switch(&o.help), "this text");
   all.add(outlier_options(o.pipeline, c)).add(sampling_options(o.pipeline));
   return all;
 }
 
-// No guessing of shortened names: a typo must not become another option.
-constexpr int kStyle = po::command_line_style::unix_style & ~po::command_line_style::allow_guessing;
-
 // Once the text has become options.
 void finish(ScanSetOptions& o, const Choices& choices) {
   choices.apply(o.pipeline);
-  if (o.threads < 0) throw InvalidOptions("--threads must be at least 0, not " + std::to_string(o.threads));
+  num_threads(o.threads);
   o.pipeline.validate();
 }
 
@@ -275,6 +284,9 @@ void read_config(const std::string& path, const po::options_description& options
   }
   try {
     store_checked(po::parse_config_file(in, options), map);
+  } catch (const po::unknown_option& e) {
+    const std::string what = unknown_option_error(e, options, "").what();
+    throw InvalidOptions(joined(path + ": " + what, "--print-config shows what may stand there"));
   } catch (const po::error& e) {
     throw InvalidOptions(path + ": " + e.what() + "; --print-config shows what may stand there");
   }
@@ -291,11 +303,9 @@ RegisterOptions parse_register_options(const Arguments& arguments) {
   scans.add_options()("scan", po::value(&o.scans));
   po::options_description all;
   all.add(command_line_only(o, config)).add(file_options).add(scans);
-  po::positional_options_description positional;
-  positional.add("scan", -1);
 
   po::variables_map map;
-  store_checked(po::command_line_parser(arguments).options(all).positional(positional).style(kStyle).run(), map);
+  store_checked(parse_arguments(arguments, all, "scan"), map);
   if (map.count("config") != 0) read_config(map["config"].as<std::string>(), file_options, map);
   po::notify(map);
   o.method = kMethods.parse(choices.method);
@@ -313,10 +323,8 @@ InspectOptions parse_inspect_options(const Arguments& arguments) {
   Choices choices(o.pipeline);
   po::options_description all = inspect_description(o, choices);
   all.add_options()("scan", po::value(&o.scans));
-  po::positional_options_description positional;
-  positional.add("scan", -1);
   po::variables_map map;
-  store_checked(po::command_line_parser(arguments).options(all).positional(positional).style(kStyle).run(), map);
+  store_checked(parse_arguments(arguments, all, "scan"), map);
   po::notify(map);
   finish(o, choices);
   return o;
@@ -333,7 +341,7 @@ void print_inspect_help(std::ostream& out) {
       << "\nExample: tcm-icp inspect datasets/town/*.ply --init datasets/town/initial_poses.json\n";
 }
 
-void print_register_help(std::ostream& out) {
+void print_register_help(Help which, std::ostream& out) {
   RegisterOptions o;
   Choices choices(o.pipeline);
   std::string config;
@@ -341,9 +349,20 @@ void print_register_help(std::ostream& out) {
          "Puts overlapping LiDAR scans (PLY, LAS, E57, PCD, PTX, PTS, text), wherever each lies, into the frame of\n"
          "one of them. SCAN is a file, a folder, a pattern, or one scan of a file (hall.ptx#2). DIR receives "
          "poses.json,\n"
-         "poses/, transforms/, registered.ply, report.json and report.html. Lengths are in the unit of the scans.\n\n"
-      << command_line_only(o, config) << '\n'
-      << configurable(o, choices) << "\nExample: tcm-icp register datasets/town/*.ply --out out/town\n";
+         "poses/, transforms/, registered.ply, report.json and report.html. Lengths are in the unit of the scans.\n\n";
+  const po::options_description general = command_line_only(o, config), file_options = configurable(o, choices);
+  if (which == Help::kAll) {
+    out << general << '\n' << file_options;
+  } else {
+    po::options_description most("Options used most; --help-all lists all");
+    for (const char* name : kUsedMost) {
+      const auto* option = general.find_nothrow(name, false);
+      most.add(
+          boost::make_shared<po::option_description>(option != nullptr ? *option : file_options.find(name, false)));
+    }
+    out << most;
+  }
+  out << "\nExample: tcm-icp register datasets/town/*.ply --out out/town\n";
 }
 
 void print_register_config(const RegisterOptions& options, std::ostream& out) {
@@ -358,7 +377,9 @@ void print_register_config(const RegisterOptions& options, std::ostream& out) {
   po::variables_map map;
   po::store(po::command_line_parser(Arguments{}).options(description).run(), map);
   out << "# tcm-icp register --config FILE\n" << std::setprecision(std::numeric_limits<double>::max_digits10);
+  for (const auto& unit : o.units) out << "unit = " << unit << '\n';
   for (const auto& option : description.options()) {
+    if (option->long_name() == "unit") continue;  // as many as were given, or none
     const boost::any& v = map[option->long_name()].value();
     out << option->long_name() << " = ";
     if (const auto* text = boost::any_cast<std::string>(&v)) out << *text;

@@ -19,7 +19,8 @@ struct ScanSetOptions {
   PipelineOptions pipeline;
   std::vector<std::string> scans;
   std::string initial_poses;
-  std::string bin;  ///< what .bin files are
+  std::string bin;                 ///< what .bin files are
+  std::vector<std::string> units;  ///< of coordinates: UNIT, or SCAN=UNIT
   std::uint64_t seed = 42;
   int threads = 0;  ///< 0: as many as the machine has
   bool quiet = false;
@@ -35,6 +36,7 @@ struct RegisterOptions : ScanSetOptions {
   std::string out;
   bool force = false;
   bool print_config = false;
+  bool help_all = false;
 };
 
 struct InspectOptions : ScanSetOptions {
@@ -45,7 +47,8 @@ struct InspectOptions : ScanSetOptions {
 /// @throws InvalidOptions, boost::program_options::error
 RegisterOptions parse_register_options(const Arguments& arguments);
 
-void print_register_help(std::ostream& out);
+enum class Help { kUsedMost, kAll };
+void print_register_help(Help which, std::ostream& out);
 
 /// @throws InvalidOptions, boost::program_options::error
 InspectOptions parse_inspect_options(const Arguments& arguments);

@@ -3,11 +3,16 @@
 #include <algorithm>
 #include <cstdio>
 #include <numbers>
+#include <optional>
 #include <ostream>
-#include <string>
+#include <vector>
+
+#include "text_width.hpp"
 
 namespace tcm_icp::app {
 namespace {
+
+constexpr double kMmPerM = 1000, kDegPerRad = 180 / std::numbers::pi;
 
 std::string text(const char* format, double value) {
   char buffer[32];
@@ -15,50 +20,121 @@ std::string text(const char* format, double value) {
   return buffer;
 }
 
-std::string percent(double share) { return text("%.0f %%", 100 * share); }
-
-std::string right(const std::string& content, std::size_t width) {
-  return std::string(width - std::min(width, content.size()), ' ') + content;
-}
-
-std::string left(const std::string& content, std::size_t width) {
-  return content + std::string(width - std::min(width, content.size()), ' ');
-}
-
 std::string verdict_of(const ScanPose& pose) {
   if (pose.status == ScanStatus::kReference) return "reference";
   return pose.status == ScanStatus::kUnregistered ? "unregistered" : pose.verdict;
 }
 
+// Nothing where the pose is not one of an adjustment; the reference is where it is by definition.
+const PoseUncertainty* uncertainty_of(const PipelineResult& result, std::size_t scan) {
+  if (result.uncertainty.poses.empty() || result.poses[scan].status != ScanStatus::kRegistered) return nullptr;
+  return &result.uncertainty.poses[scan];
+}
+
 // Root of the sum over the three axes: how far off the scan's middle, and the scan's heading, may be.
-std::string sigma(const PipelineResult& result, std::size_t scan, bool rotation) {
-  if (result.uncertainty.poses.empty() || result.poses[scan].status != ScanStatus::kRegistered) return "";
-  const PoseUncertainty& pose = result.uncertainty.poses[scan];
-  if (!pose.determined) return "unknown";
-  if (rotation) return text("%.2g", 180 / std::numbers::pi * pose.sigma_rotation_rad().norm());
-  return text("%.2g", pose.sigma_position_m().norm());
+double sigma_position_m(const PoseUncertainty& pose) { return pose.sigma_position_m().norm(); }
+double sigma_rotation_rad(const PoseUncertainty& pose) { return pose.sigma_rotation_rad().norm(); }
+
+struct Column {
+  const char* name;
+  const char* unit;
+  std::size_t width;
+};
+
+// Between number and name on the left and nothing on the right; two spaces stand before each.
+constexpr Column kColumns[] = {{"overlap", "[%]", 7},
+                               {"agree", "[%]", 5},
+                               {"residual", "[mm]", 8},
+                               {"1 sigma", "[mm]", 7},
+                               {"1 sigma", "[deg]", 7}};
+constexpr std::size_t kNumberWidth = 3, kVerdictWidth = 12, kGap = 2;
+
+std::size_t width_of_figures() {
+  std::size_t width = kGap + kVerdictWidth;
+  for (const Column& c : kColumns) width += kGap + c.width;
+  return width;
+}
+
+std::size_t name_width(const PipelineResult& result, std::size_t width) {
+  constexpr std::size_t kNarrowest = 9;  // three letters at either end
+  const std::size_t taken = kNumberWidth + kGap + width_of_figures();
+  std::size_t longest = 4;
+  for (const auto& s : result.scans) longest = std::max(longest, num_characters(s.file));
+  return std::min(longest, width > taken + kNarrowest ? width - taken : kNarrowest);
+}
+
+std::string without_trailing_spaces(std::string line) {
+  line.erase(line.find_last_not_of(' ') + 1);
+  return line;
+}
+
+void print_header(std::size_t names, std::ostream& out) {
+  const std::string gap(kGap, ' ');
+  std::string name = right("no.", kNumberWidth) + gap + left("scan", names) + gap + left("verdict", kVerdictWidth);
+  std::string unit(num_characters(name), ' ');
+  for (const Column& c : kColumns) {
+    name += gap + right(c.name, c.width);
+    unit += gap + right(c.unit, c.width);
+  }
+  out << name << '\n' << unit << '\n';
+}
+
+std::vector<std::string> figures(const PipelineResult& result, std::size_t scan) {
+  std::vector<std::string> cells(std::size(kColumns));
+  if (const auto& evidence = result.evidence[scan]) {
+    cells[0] = text("%.0f", 100 * evidence->overlap);
+    cells[1] = text("%.0f", 100 * evidence->consensus());
+    cells[2] = text("%.3g", kMmPerM * evidence->median_residual_m);
+  }
+  if (const PoseUncertainty* pose = uncertainty_of(result, scan)) {
+    cells[3] = pose->determined ? text("%.2g", kMmPerM * sigma_position_m(*pose)) : "unknown";
+    cells[4] = pose->determined ? text("%.2g", kDegPerRad * sigma_rotation_rad(*pose)) : "unknown";
+  }
+  return cells;
+}
+
+std::string worst_sigma(const PipelineResult& result) {
+  std::optional<std::size_t> worst;
+  for (std::size_t i = 0; i < result.poses.size(); ++i) {
+    const PoseUncertainty* pose = uncertainty_of(result, i);
+    if (pose == nullptr) continue;
+    if (!pose->determined) return ", worst 1 sigma unknown (" + result.poses[i].file + ")";
+    if (!worst || sigma_position_m(*pose) > sigma_position_m(result.uncertainty.poses[*worst])) worst = i;
+  }
+  if (!worst) return "";
+  const double sigma_mm = kMmPerM * sigma_position_m(result.uncertainty.poses[*worst]);
+  const std::string length =
+      sigma_mm < kMmPerM ? text("%.2g", sigma_mm) + " mm" : text("%.3g", sigma_mm / kMmPerM) + " m";
+  return ", worst 1 sigma " + length + " (" + result.poses[*worst].file + ")";
 }
 
 }  // namespace
 
-void print_register_table(const PipelineResult& result, std::ostream& out) {
-  std::size_t width = 4;
-  for (const auto& s : result.scans) width = std::max(width, s.file.size());
-  out << left("scan", width) << "  verdict       overlap   agree  residual   +- pos  +- deg  reason\n";
+void print_register_table(const PipelineResult& result, std::size_t width, std::ostream& out) {
+  const std::size_t names = name_width(result, width);
+  const std::string gap(kGap, ' ');
+  print_header(names, out);
   for (std::size_t i = 0; i < result.scans.size(); ++i) {
     const ScanPose& pose = result.poses[i];
-    const auto& evidence = result.evidence[i];
-    std::string line = left(pose.file, width) + "  " + left(verdict_of(pose), 12);
-    line += right(evidence ? percent(evidence->overlap) : "", 9);
-    line += right(evidence ? percent(evidence->consensus()) : "", 8);
-    line += right(evidence ? text("%.3g", evidence->median_residual_m) : "", 10);
-    line += right(sigma(result, i, false), 9) + right(sigma(result, i, true), 8);
-    if (pose.verdict != "accepted") line += "  " + pose.reason;
-    out << line.substr(0, line.find_last_not_of(' ') + 1) << '\n';
+    std::string line = right(std::to_string(i), kNumberWidth) + gap + left(shortened(pose.file, names), names) + gap +
+                       left(verdict_of(pose), kVerdictWidth);
+    const auto cells = figures(result, i);
+    for (std::size_t c = 0; c < cells.size(); ++c) line += gap + right(cells[c], kColumns[c].width);
+    out << without_trailing_spaces(line) << '\n';
+    if (pose.verdict != "accepted") out << wrapped(pose.reason, width, kNumberWidth + kGap);
   }
   for (const auto& [a, b] : result.adjustment.outlying_pairs) {
-    out << result.scans[a].file << " and " << result.scans[b].file << " fit each other far worse than other pairs do\n";
+    out << wrapped(
+        result.scans[a].file + " and " + result.scans[b].file + " fit each other far worse than other pairs do", width,
+        0);
   }
+}
+
+std::string register_summary(const PipelineResult& result, bool verified, const std::filesystem::path& report) {
+  const auto placed = std::count_if(result.poses.begin(), result.poses.end(),
+                                    [](const ScanPose& p) { return p.status != ScanStatus::kUnregistered; });
+  return std::to_string(placed) + " of " + std::to_string(result.poses.size()) +
+         (verified ? " registered" : " have a pose, none verified") + worst_sigma(result) + ", open " + report.string();
 }
 
 }  // namespace tcm_icp::app

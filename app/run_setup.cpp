@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <ctime>
 #include <map>
-#include <thread>
 
+#include "parse_arguments.hpp"
+#include "suggestion.hpp"
 #include "tcm_icp/core/error.hpp"
 #include "tcm_icp/io/pose_io.hpp"
 #include "tcm_icp/io/scan_path.hpp"
@@ -34,7 +35,50 @@ BinLayout parse_bin(const std::string& text) {
   if (text.empty()) return BinLayout::kNone;
   if (text == "kitti") return BinLayout::kKitti;
   if (text == "nuscenes") return BinLayout::kNuScenes;
-  throw InvalidOptions("--bin '" + text + "': choose one of kitti, nuscenes");
+  throw InvalidOptions("--bin '" + text + "': choose one of kitti, nuscenes" +
+                       did_you_mean(text, {"kitti", "nuscenes"}));
+}
+
+namespace {
+
+LengthUnit parse_unit(const std::string& option, const std::string& name) {
+  if (const auto unit = unit_from_name(name)) return *unit;
+  throw InvalidOptions("--unit " + option + ": choose one of m, mm, ft, us-ft" +
+                       did_you_mean(name, {"m", "mm", "ft", "us-ft"}));
+}
+
+bool is_called(const std::string& name, const std::filesystem::path& scan, const std::string& scan_name,
+               std::size_t number) {
+  const std::filesystem::path file = parse_scan_path(scan).file;
+  return name == scan_name || name == scan || name == file || name == file.filename() || name == std::to_string(number);
+}
+
+}  // namespace
+
+std::vector<std::filesystem::path> with_units(const std::vector<std::filesystem::path>& scans,
+                                              const std::vector<std::string>& units) {
+  const std::vector<std::string> names = scan_names(scans);
+  std::vector<std::filesystem::path> out = scans;
+  for (const auto& option : units) {
+    if (option.find('=') != std::string::npos) continue;
+    for (auto& scan : out) scan = with_unit(scan, parse_unit(option, option));
+  }
+  for (const auto& option : units) {
+    const std::size_t mark = option.rfind('=');
+    if (mark == std::string::npos) continue;
+    const std::string name = option.substr(0, mark);
+    const LengthUnit unit = parse_unit(option, option.substr(mark + 1));
+    bool found = false;
+    for (std::size_t i = 0; i < scans.size(); ++i) {
+      if (!is_called(name, scans[i], names[i], i)) continue;
+      out[i] = with_unit(scans[i], unit);
+      found = true;
+    }
+    if (!found) {
+      throw InvalidOptions("--unit " + option + ": no scan is called '" + name + "'" + did_you_mean(name, names));
+    }
+  }
+  return out;
 }
 
 void report_left_out(const ScanInputs& inputs, const RunContext& context) {
@@ -68,8 +112,7 @@ InitialPoses read_guess(const ScanSetOptions& options, const std::vector<std::fi
 RunContext run_context(const ScanSetOptions& options, Console& console) {
   RunContext context;
   context.seed = options.seed;
-  context.num_threads =
-      options.threads > 0 ? options.threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  context.num_threads = num_threads(options.threads);
   context.on_progress = [&console](const Progress& p) { return console.progress(p); };
   context.log = [&console](LogLevel level, std::string_view message) { console.log(level, message); };
   return context;

@@ -25,6 +25,15 @@ BinLayout parse_bin(const std::string& text);
 
 constexpr const char* kBinHelp = "what .bin files are: kitti (x y z intensity) or nuscenes (x y z intensity ring)";
 
+constexpr const char* kUnitHelp =
+    "unit of the coordinates, m (assumed), mm, ft or us-ft; SCAN=UNIT for one scan or file; results are in metres";
+
+/// The paths of `scans` with the units of the option --unit, of which the last that names a scan holds, and where none
+/// does, the last that stands for all. SCAN is a scan's name, number, path, or the file it is in.
+/// @throws InvalidOptions
+std::vector<std::filesystem::path> with_units(const std::vector<std::filesystem::path>& scans,
+                                              const std::vector<std::string>& units);
+
 /// What --init has in place of a file's name for the poses that scans have in their own files.
 constexpr std::string_view kFromHeaders = "headers";
 

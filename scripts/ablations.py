@@ -5,11 +5,11 @@
 
 LP solver (GLPK, CGAL), LP formulation, merge order, outlier removal, refinement and joint adjustment: a table each, as
 CSV and Markdown, with one sentence on what its figures say. Scenes, --quick, resuming and what lies beside the tables
-are those of paper_tables.py, and a DIR of its --out is used again. Needs numpy.
+are those of paper_tables.py, and a DIR of its --out is used again. Without --exe, the tcm-icp on PATH is measured, else
+the one in build/. Needs numpy.
 """
 
 import argparse
-import os
 import sys
 from pathlib import Path
 
@@ -21,6 +21,7 @@ except ImportError:
 import json
 
 from paper.cells import CellStore, cell_name
+from paper.executable import find_exe
 from paper.findings import finding
 from paper.formats import markdown, write_table
 from paper.measure import initial_poses, judged, measure
@@ -33,7 +34,6 @@ from paper.scenes import PAPER_SETS, SceneMaker, own_sets
 from paper.summary import summarize
 from paper.variants import ABLATIONS
 
-BUILD = Path(__file__).resolve().parent.parent / "build" / "release"
 QUICK = Extent("quick", (1,), (), QUICK_SAMPLING, (*QUICK_SCENES, *ROUGH_POSES), 120)
 
 
@@ -120,11 +120,10 @@ def main():
     ap.add_argument("--out", type=Path, required=True)
     ap.add_argument("--quick", action="store_true", help="small scans, one seed")
     ap.add_argument("--scenes", nargs="+", help="your own scenes in place of the simulated ones")
-    ap.add_argument("--exe", type=Path, default=BUILD / "app" / "tcm-icp")
+    ap.add_argument("--exe", type=Path, help="the program to measure, in place of the one on PATH or in build/")
     ap.add_argument("--only", nargs="+", choices=[a.key for a in ABLATIONS], help="these ablations")
     options = ap.parse_args()
-    if not os.access(options.exe, os.X_OK):
-        sys.exit(f"ablations.py: {options.exe} is not there: cmake --preset release && cmake --build --preset release")
+    options.exe = find_exe("ablations.py", options.exe)
     extent = QUICK if options.quick else FULL
     try:
         data_sets = own_sets(options.scenes) if options.scenes else [d for d in PAPER_SETS if d.key != "4"]

@@ -12,11 +12,12 @@ cores.
 It can be interrupted and started again: finished cells (DIR/cells) are not run again, as long as the program is the
 same; --methods runs the cells of some methods only. Beside the tables: commands.txt (every command line),
 provenance.json (seeds, versions, commit). A cell without a figure says why. Needs numpy and matplotlib, and a tcm-icp
-built with PCL (-DTCM_ICP_WITH_PCL=ON), which may be another one than --exe.
+built with PCL (-DTCM_ICP_WITH_PCL=ON), which may be another one than --exe (--conventional-exe); without one it ends
+with status 3 before anything is run, for a table without baselines says nothing. Without --exe, the tcm-icp on PATH is
+measured, else the one in build/.
 """
 
 import argparse
-import os
 import sys
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
@@ -33,6 +34,7 @@ except ImportError:
 
 from paper import charts, pictures
 from paper.cells import CellStore, cell_name
+from paper.executable import find_exe, require_baselines
 from paper.formats import write_table
 from paper.measure import initial_poses, judged, measure
 from paper.methods import BY_KEY, CONVENTIONAL, METHODS, QUICK_SAMPLING, QUICK_SCENES
@@ -44,7 +46,6 @@ from paper.scenes import PAPER_SETS, SceneMaker, own_sets
 from paper.standing import standing
 from paper.table_rows import table
 
-BUILD = Path(__file__).resolve().parent.parent / "build" / "release"
 QUICK = Extent("quick", (1,), (20, 40), QUICK_SAMPLING, (*QUICK_SCENES, *ROUGH_POSES), 120)
 PICTURED = "none", 0
 
@@ -181,7 +182,7 @@ def main():
     ap.add_argument("--out", type=Path, required=True)
     ap.add_argument("--quick", action="store_true", help="small scans, one seed, two levels")
     ap.add_argument("--scenes", nargs="+", help="your own scenes in place of the simulated ones")
-    ap.add_argument("--exe", type=Path, default=BUILD / "app" / "tcm-icp")
+    ap.add_argument("--exe", type=Path, help="the program to measure, in place of the one on PATH or in build/")
     ap.add_argument("--conventional-exe", type=Path, help="for ICP and features, where --exe was built without PCL")
     ap.add_argument("--methods", nargs="+", choices=list(BY_KEY), help="run these only; the others' finished cells count")
     ap.add_argument("--seeds", type=int, nargs="+", help="in place of 1 to 5, or 1 with --quick")
@@ -189,9 +190,11 @@ def main():
     ap.add_argument("--jobs", type=int, help="runs at a time: 1, or 2 with --quick; more than the idle cores disturb the times")
     ap.add_argument("--draw-only", action="store_true", help="tables and figures of the cells that are there")
     options = ap.parse_args()
-    for exe in filter(None, (options.exe, options.conventional_exe)):
-        if not os.access(exe, os.X_OK):
-            sys.exit(f"paper_tables.py: {exe} is not there: cmake --preset release && cmake --build --preset release")
+    options.exe = find_exe("paper_tables.py", options.exe)
+    if options.conventional_exe:
+        options.conventional_exe = find_exe("paper_tables.py", options.conventional_exe)
+    if not options.draw_only and set(options.methods or CONVENTIONAL) & set(CONVENTIONAL):
+        require_baselines("paper_tables.py", options.conventional_exe or options.exe)
     extent = QUICK if options.quick else FULL
     if options.seeds:
         extent = replace(extent, seeds=tuple(options.seeds))

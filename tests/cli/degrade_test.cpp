@@ -43,7 +43,7 @@ TEST_F(Degrade, TheSameSeedGivesTheSameBytesForAnyNumberOfThreads) {
 TEST_F(Degrade, RefusesWhatCannotBeDone) {
   expect_refusal(degrade({}), 1, {"nothing to do", "--noise"});
   expect_refusal(degrade({"--noise", "2"}), 1, {"noise_share", "2"});
-  expect_refusal(degrade({"--noise", "0.1", "--threads", "0"}), 1, {"--threads"});
+  expect_refusal(degrade({"--noise", "0.1", "--threads", "-1"}), 1, {"--threads"});
   expect_refusal({"degrade", "--out", "worse", "--noise", "0.1"}, 1, {"no scan is named"});
   expect_refusal(Words{"degrade"} + town_scans({0}) + Words{"--noise", "0.1"}, 1, {"out"});
   expect_refusal(Words{"degrade", "none.ply", "--out", "worse", "--noise", "0.1"}, 2, {"none.ply", "no such file"});

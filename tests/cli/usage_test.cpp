@@ -1,5 +1,7 @@
 // Options of `tcm-icp register`: what is refused, what is told, and what an option file does.
 
+#include <algorithm>
+
 #include "cli_test.hpp"
 
 namespace tcm_icp::test {
@@ -39,10 +41,66 @@ TEST_F(Usage, RefusesUnknownNamesAndTellsTheKnown) {
   expect_bad({"--merge-order", "size"}, {"--merge-order 'size'", "overlap, file, random"});
 }
 
+TEST_F(Usage, AsksForTheNameThatWasMeant) {
+  expect_refusal({"registr"}, 1, {"did you mean 'register'? 'tcm-icp --help'"});
+  expect_refusal({"inpsect"}, 1, {"did you mean 'inspect'?"});
+  expect_bad({"--referense", "a.xyz"}, {"did you mean '--reference'? 'tcm-icp register --help'"});
+  expect_bad({"--prof", "paper"}, {"did you mean '--profile'?"});
+  expect_bad({"--fine-voxels", "1000"}, {"did you mean '--sampling.fine-voxels'?"});
+  expect_bad({"--profile", "papper"}, {"robust, paper; did you mean 'paper'?"});
+  expect_bad({"--bin", "kiti"}, {"did you mean 'kitti'?"});
+  expect_refusal({"simulate", "--scene", "tonw", "--out", "new"}, 1, {"did you mean 'town'?"});
+  expect_refusal({"simulate", "--scens", "3", "--out", "new"}, 1, {"did you mean '--scene'?"});
+  expect_refusal({"degrade", "a.xyz", "--nose", "0.1", "--out", "new"}, 1, {"did you mean '--noise'?"});
+  expect_refusal({"evaluate", "--thruth", "t.json"}, 1, {"did you mean '--truth'?"});
+  folder_.write("options.ini", "profil = paper\n");
+  expect_bad({"--config", "options.ini"}, {"options.ini", "did you mean 'profile'? --print-config"});
+}
+
+TEST_F(Usage, AsksForNothingWhereNoNameIsAlike) {
+  for (const Words& arguments :
+       {Words{"frobnicate"}, Words{"register", "--bogus"}, Words{"register", "-x"},
+        Words{"inspect", "--scan", "a.xyz", "--qqq"}, Words{"register", "--" + std::string(5000, 'p')}}) {
+    const RunResult result = run(arguments);
+    EXPECT_EQ(result.exit_code, 1) << arguments.back();
+    EXPECT_EQ(result.err.find("did you mean"), std::string::npos) << result.err;
+  }
+}
+
+TEST_F(Usage, EveryCommandRunsAlike) {
+  for (const char* command : {"register", "evaluate", "degrade", "inspect", "simulate"}) {
+    const RunResult help = run({command, "--help"});
+    for (const char* option : {"--quiet", "--verbose", "--threads"}) {
+      EXPECT_NE(help.out.find(option), std::string::npos) << command << ' ' << option;
+    }
+  }
+  const Words none{"--threads", "-1"}, to{"--out", "new"};
+  expect_bad(none, {"--threads", "-1"});
+  expect_refusal(Words{"inspect", "a.xyz"} + none, 1, {"--threads", "-1"});
+  expect_refusal(Words{"degrade", "a.xyz", "--noise", "0.1"} + none + to, 1, {"--threads", "-1"});
+  expect_refusal(Words{"simulate"} + none + to, 1, {"--threads", "-1"});
+  expect_refusal(Words{"evaluate", "--scans", ".", "--poses", "p", "--truth", "t"} + none, 1, {"--threads", "-1"});
+  for (const char* command : {"register", "degrade", "simulate"}) {
+    EXPECT_NE(run({command, "--help"}).out.find("--force"), std::string::npos) << command;
+  }
+}
+
+TEST_F(Usage, QuietCommandsSayNothing) {
+  const RunResult made =
+      run({"simulate", "--scans", "2", "--step", "4", "--out", "scene", "--quiet", "--threads", "0"});
+  EXPECT_EQ(made.exit_code, 0) << made.err;
+  EXPECT_EQ(made.out + made.err, "");
+  const RunResult worse = run({"degrade", "scene/000.ply", "--noise", "0.1", "--out", "worse", "-q", "--threads", "0"});
+  EXPECT_EQ(worse.exit_code, 0) << worse.err;
+  EXPECT_EQ(worse.out + worse.err, "");
+}
+
 TEST_F(Usage, RefusesNumbersOutOfBounds) {
   expect_bad({"--threads", "-1"}, {"threads", "-1"});
   expect_bad({"--threads", "two"}, {"threads", "two"});
   expect_bad({"--seed", "-1"}, {"--seed", "-1"});
+  expect_bad({"--reference", "2"}, {"--reference 2", "0 to 1"});
+  expect_bad({"--reference", "c.xyz"}, {"--reference c.xyz", "no scan of that name"});
   expect_bad({"--sampling.fine-voxels=-3"}, {"sampling.fine-voxels", "-3"});
   expect_bad({"--sampling.coarse-voxels", "5"}, {"coarse_voxels", "5", "100"});
   expect_bad({"--lp.max-pivots", "0"}, {"max_pivots", "0"});
@@ -62,8 +120,17 @@ TEST_F(Usage, PrintConfigHasWhatWasAskedForAndReadsItBack) {
   EXPECT_EQ(config({"--config", "options.ini"}), text);
 }
 
-TEST_F(Usage, HelpGoesToStdoutAndNamesEveryOption) {
+TEST_F(Usage, HelpFitsAPage) {
   const RunResult help = run({"register", "--help"});
+  EXPECT_EQ(help.exit_code, 0);
+  EXPECT_LT(std::count(help.out.begin(), help.out.end(), '\n'), 60) << help.out;
+  for (const char* option : {"--out", "--reference", "--help-all"}) {
+    EXPECT_NE(help.out.find(option), std::string::npos) << option;
+  }
+}
+
+TEST_F(Usage, HelpGoesToStdoutAndNamesEveryOption) {
+  const RunResult help = run({"register", "--help-all"});
   EXPECT_EQ(help.exit_code, 0);
   EXPECT_EQ(help.err, "");
   for (const char* option : {"--out", "--force", "--config", "--print-config", "--quiet", "--verbose", "--help"}) {

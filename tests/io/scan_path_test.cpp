@@ -3,10 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "io/temp_files.hpp"
 #include "tcm_icp/core/error.hpp"
+#include "tcm_icp/io/scan_reader.hpp"
 
 namespace tcm_icp {
 namespace {
@@ -21,6 +23,36 @@ TEST(ScanPath, ANumberBehindTheFileIsTheScanInIt) {
   const ScanPath scan = parse_scan_path("some/hall.e57#12");
   EXPECT_EQ(scan.file, "some/hall.e57");
   EXPECT_EQ(scan.number, 12u);
+}
+
+TEST(ScanPath, AUnitMayStandBehindAllElse) {
+  for (const auto& [text, number, bin, unit] :
+       {std::tuple("hall.e57#2#mm", 2u, BinLayout::kNone, LengthUnit::kMillimetre),
+        {"hall.e57#ft", 0u, BinLayout::kNone, LengthUnit::kFoot},
+        {"hall.e57#kitti#us-ft", 0u, BinLayout::kKitti, LengthUnit::kUsFoot}}) {
+    const ScanPath scan = parse_scan_path(text);
+    EXPECT_EQ(scan.file, "hall.e57") << text;
+    EXPECT_EQ(scan.number, number) << text;
+    EXPECT_EQ(scan.bin, bin) << text;
+    EXPECT_EQ(scan.unit, unit) << text;
+    EXPECT_EQ(with_unit(text, unit), text);
+  }
+  EXPECT_EQ(with_unit("hall.e57#2#mm", LengthUnit::kMetre), "hall.e57#2");
+  EXPECT_EQ(with_unit("hall.e57", LengthUnit::kFoot), "hall.e57#ft");
+  EXPECT_EQ(parse_scan_path("hall.e57#mm#2").file, "hall.e57#mm") << "not in front";
+  EXPECT_EQ(scan_names({"a/1.ply#mm", "a/2.ply#1#ft"}), Names({"1.ply", "2.ply#1"}));
+}
+
+TEST(ScanPath, UnitsAreReadAsMetres) {
+  const TempFolder folder;
+  const auto path = folder.write("a.xyz", "1000 2000 -3000\n");
+  PointBlock block;
+  ScanReader reader(with_unit(path, LengthUnit::kMillimetre), ReadAttributes::kNo);
+  ASSERT_TRUE(reader.read(block));
+  // A rounding each of 0.001 and of the product.
+  EXPECT_LT((block.points[0] - Eigen::Vector3d(1, 2, -3)).norm(), 1e-15 * Eigen::Vector3d(1, 2, -3).norm());
+  EXPECT_EQ(metres_in(LengthUnit::kUsFoot) * 3937, 1200);
+  EXPECT_FALSE(unit_from_name("feet"));
 }
 
 TEST(ScanPath, WhatIsNoNumberBelongsToTheName) {

@@ -1,14 +1,19 @@
 """Checks of scripts/paper, without tcm-icp: what is kept, counted and said."""
 
+import io
 import json
+import os
 import sys
 import tempfile
 import unittest
+from contextlib import redirect_stderr
 from pathlib import Path
+from unittest import mock
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent.parent / "scripts"))
 
 from paper.cells import CellStore, cell_name
+from paper.executable import NO_BASELINES, find_exe, require_baselines
 from paper.findings import finding
 from paper.formats import latex, markdown
 from paper.measure import errors_of, iterations_of
@@ -35,6 +40,48 @@ class Cells(unittest.TestCase):
 
     def test_names_differ_where_only_a_list_does(self):
         self.assertNotEqual(cell_name({"a": ["--x"]}), cell_name({"a": ["--y"]}))
+
+
+class Executable(unittest.TestCase):
+    def setUp(self):
+        holder = tempfile.TemporaryDirectory()
+        self.addCleanup(holder.cleanup)
+        self.folder = Path(holder.name)
+        self.build = self.folder / "build"
+
+    def program(self, path, says="", code=2):
+        exe = self.folder / path
+        exe.parent.mkdir(parents=True)
+        exe.write_text(f"#!/bin/sh\necho '{says}' >&2\nexit {code}\n")
+        exe.chmod(0o755)
+        return exe
+
+    def found(self, named=None, path=""):
+        with mock.patch.dict(os.environ, PATH=str(path)), redirect_stderr(io.StringIO()):
+            return find_exe("x.py", named, self.build)
+
+    def test_named_then_path_then_build(self):
+        dev, release = self.program("build/dev/app/tcm-icp"), self.program("build/release/app/tcm-icp")
+        installed, named = self.program("bin/tcm-icp"), self.program("other/tcm")
+        self.assertEqual(self.found(named, installed.parent), named)
+        self.assertEqual(self.found(path=installed.parent), installed)
+        self.assertEqual(self.found(), release)
+        release.unlink()
+        self.assertEqual(self.found(), dev)
+
+    def test_none_names_the_option(self):
+        with self.assertRaisesRegex(SystemExit, "--exe"):
+            self.found()
+        with self.assertRaisesRegex(SystemExit, "no program"):
+            self.found(self.folder)
+
+    def test_without_baselines_the_status_says_so(self):
+        without = self.program("a/tcm-icp", "tcm-icp: --method icp: this tcm-icp was built without PCL; install it", 1)
+        with redirect_stderr(io.StringIO()) as said, self.assertRaises(SystemExit) as end:
+            require_baselines("x.py", without)
+        self.assertEqual(end.exception.code, NO_BASELINES)
+        self.assertIn("--conventional-exe", said.getvalue())
+        require_baselines("x.py", self.program("b/tcm-icp", "tcm-icp: no-scan-1: cannot be opened"))
 
 
 class Plan(unittest.TestCase):

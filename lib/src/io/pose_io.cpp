@@ -57,7 +57,8 @@ std::string json_scan(const ScanPose& scan) {
     text += "   \"pose_in_component\": " + json_matrix(*scan.pose_in_component, scan.file) + ",\n";
   }
   return text + "   \"component\": " + std::to_string(scan.component) + ", \"verdict\": " + json_string(scan.verdict) +
-         ", \"reason\": " + json_string(scan.reason) + "}";
+         ", \"reason\": " + json_string(scan.reason) +
+         (scan.unit == "m" ? "" : ", \"unit\": " + json_string(scan.unit)) + "}";
 }
 
 void write_text(const std::filesystem::path& path, const std::string& text) {
@@ -97,6 +98,7 @@ ScanPose read_scan(const nlohmann::json& entry, const std::filesystem::path& pat
   scan.component = field_of<int>(entry, "component", path, place);
   scan.verdict = field_of<std::string>(entry, "verdict", path, place);
   scan.reason = field_of<std::string>(entry, "reason", path, place);
+  if (entry.contains("unit")) scan.unit = field_of<std::string>(entry, "unit", path, place);
   return scan;
 }
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <charconv>
 #include <map>
-#include <string_view>
 #include <system_error>
+#include <utility>
 
 #include "open_scan.hpp"
 
@@ -28,21 +28,54 @@ fs::path plain(const fs::path& path) {
   return (error ? path : absolute).lexically_normal().relative_path();
 }
 
-}  // namespace
-
-ScanPath parse_scan_path(const fs::path& path) {
+/// Splits "hall.e57#2" into file and "2"; no word where there is none, or where a file has the whole name.
+std::pair<fs::path, std::string> take_word(const fs::path& path) {
   std::error_code ignored;
   const std::string text = path.string();
   const std::size_t mark = text.rfind('#');
-  if (mark == std::string::npos || fs::exists(path, ignored)) return {path};
-  const std::string_view word = std::string_view(text).substr(mark + 1);
-  if (word == "kitti") return {text.substr(0, mark), 0, BinLayout::kKitti};
-  if (word == "nuscenes") return {text.substr(0, mark), 0, BinLayout::kNuScenes};
+  if (mark == std::string::npos || fs::exists(path, ignored)) return {path, ""};
+  return {text.substr(0, mark), text.substr(mark + 1)};
+}
+
+fs::path path_of(const ScanPath& scan) {
+  std::string text = scan.file.string();
+  if (scan.number > 0) text += "#" + std::to_string(scan.number);
+  if (scan.bin == BinLayout::kKitti) text += "#kitti";
+  if (scan.bin == BinLayout::kNuScenes) text += "#nuscenes";
+  if (scan.unit != LengthUnit::kMetre) text += "#" + name_of(scan.unit);
+  return text;
+}
+
+}  // namespace
+
+ScanPath parse_scan_path(const fs::path& path) {
+  ScanPath scan{path};
+  const auto unit = unit_from_name(take_word(scan.file).second);
+  if (unit && *unit != LengthUnit::kMetre) {
+    scan.file = take_word(scan.file).first;
+    scan.unit = *unit;
+  }
+  const auto [file, word] = take_word(scan.file);
   std::size_t number = 0;
-  const char* const end = text.data() + text.size();
-  const auto [rest, error] = std::from_chars(text.data() + mark + 1, end, number);
-  if (error != std::errc() || rest != end || number == 0) return {path};
-  return {text.substr(0, mark), number, BinLayout::kNone};
+  const char* const end = word.data() + word.size();
+  const auto [rest, error] = std::from_chars(word.data(), end, number);
+  if (word == "kitti") {
+    scan.bin = BinLayout::kKitti;
+  } else if (word == "nuscenes") {
+    scan.bin = BinLayout::kNuScenes;
+  } else if (error == std::errc() && rest == end && number > 0) {
+    scan.number = number;
+  } else {
+    return scan;
+  }
+  scan.file = file;
+  return scan;
+}
+
+fs::path with_unit(const fs::path& path, LengthUnit unit) {
+  ScanPath scan = parse_scan_path(path);
+  scan.unit = unit;
+  return path_of(scan);
 }
 
 std::vector<fs::path> scans_in(const fs::path& path) {
@@ -51,7 +84,7 @@ std::vector<fs::path> scans_in(const fs::path& path) {
   const std::size_t count = count_scans(scan.file);
   if (count == 1) return {path};
   std::vector<fs::path> scans;
-  for (std::size_t i = 1; i <= count; ++i) scans.emplace_back(path.string() + "#" + std::to_string(i));
+  for (std::size_t i = 1; i <= count; ++i) scans.push_back(path_of({scan.file, i, scan.bin, scan.unit}));
   return scans;
 }
 
@@ -61,7 +94,7 @@ std::vector<std::string> scan_names(const std::vector<fs::path>& scans) {
   std::vector<fs::path> paths;
   for (const auto& scan : scans) {
     const ScanPath parsed = parse_scan_path(scan);
-    paths.push_back(parsed.bin == BinLayout::kNone ? scan : parsed.file);
+    paths.push_back(path_of({parsed.file, parsed.number}));
   }
   for (std::size_t i = 0; i < paths.size(); ++i) {
     names.push_back(paths[i].filename().string());

@@ -6,6 +6,7 @@
 #include "open_scan.hpp"
 #include "tcm_icp/core/error.hpp"
 #include "tcm_icp/core/rigid_transform.hpp"
+#include "tcm_icp/io/scan_path.hpp"
 
 namespace tcm_icp {
 struct ScanReader::Impl {
@@ -13,12 +14,14 @@ struct ScanReader::Impl {
       : path(scan_path),
         source(open_scan(scan_path, read_attributes)),
         attributes(read_attributes == ReadAttributes::kYes ? source->attributes() : std::vector<Attribute>{}),
-        stride(tcm_icp::attribute_stride(attributes)) {}
+        stride(tcm_icp::attribute_stride(attributes)),
+        metres_per_unit(metres_in(parse_scan_path(scan_path).unit)) {}
 
   std::filesystem::path path;
   std::unique_ptr<ScanSource> source;
   std::vector<Attribute> attributes;
   std::size_t stride;
+  double metres_per_unit;
   std::uint64_t num_points = 0, num_dropped = 0;
 };
 
@@ -43,7 +46,7 @@ std::optional<Eigen::Isometry3d> ScanReader::header_pose() const {
   }
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   pose.linear() = project_onto_so3(matrix->topLeftCorner<3, 3>());
-  pose.translation() = matrix->topRightCorner<3, 1>();
+  pose.translation() = impl_->metres_per_unit * matrix->topRightCorner<3, 1>();
   return pose;
 }
 
@@ -64,7 +67,7 @@ bool ScanReader::read(PointBlock& block, std::size_t max_points) {
       ++impl_->num_dropped;
       continue;
     }
-    block.points.push_back(point);
+    block.points.push_back(impl_->metres_per_unit * point);  // times 1 keeps every bit
   }
   block.attributes.resize(block.size() * stride);
   impl_->num_points += block.size();

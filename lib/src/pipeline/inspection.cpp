@@ -2,6 +2,7 @@
 
 #include <limits>
 
+#include "pipeline/scan_checks.hpp"
 #include "pipeline/scan_set.hpp"
 #include "report/report_parts.hpp"
 #include "tcm_icp/core/error.hpp"
@@ -69,6 +70,10 @@ Inspection inspect_scans(const std::vector<std::filesystem::path>& paths, const 
     out.scans.push_back(summarize(s));
     out.boxes_m.push_back(raw_box(s.scan));
   }
+  for (const auto& [copy, original] : find_twins(sampled)) {
+    context.warn(copy + " has the same points as " + original + "; register refuses such copies");
+  }
+  warn_of_units(out.scans, context);
   if (paths.size() < 2) return out;
 
   const Resolutions resolutions = choose_resolutions(sampled, options.sampling, context.num_threads);

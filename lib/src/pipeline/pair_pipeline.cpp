@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "pipeline/scan_checks.hpp"
 #include "pipeline/scan_set.hpp"
 #include "pipeline/stage_clock.hpp"
 #include "scans/prepared_scan.hpp"
@@ -85,7 +86,9 @@ PipelineResult run_pairs(const std::vector<std::filesystem::path>& paths, const 
   StageClock clock(result.stages);
   clock.begin("read and sample");
   std::vector<SampledScan> scans = read_scans(paths, options, context, ScanDetail::kPoints);
+  refuse_twins(scans);
   for (const auto& s : scans) result.scans.push_back(summarize(s));
+  result.warnings = warn_of_units(result.scans, context);
   clock.begin("prepare");
   result.coarse_voxel_m = result.fine_voxel_m =
       choose_resolutions(scans, options.sampling, context.num_threads).coarse_m;
@@ -101,6 +104,7 @@ PipelineResult run_pairs(const std::vector<std::filesystem::path>& paths, const 
   result.graph.reference = result.reference;
   for (std::size_t i = 0; i < n; ++i) {
     result.poses.push_back(scan_pose(scans, i, result.reference, poses[i], converged[i], name));
+    result.poses[i].unit = result.scans[i].unit;
   }
   result.evidence.assign(n, std::nullopt);
   result.pairs = std::move(fits.pairs);

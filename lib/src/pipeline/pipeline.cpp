@@ -4,6 +4,7 @@
 #include <string>
 
 #include "pipeline/pipeline_input.hpp"
+#include "pipeline/scan_checks.hpp"
 #include "pipeline/scan_order.hpp"
 #include "pipeline/scan_set.hpp"
 #include "tcm_icp/core/error.hpp"
@@ -35,17 +36,20 @@ PipelineResult Pipeline::run(const std::vector<std::filesystem::path>& paths, co
   // Who asks for the order of the list gets it, and so does the paper, whose reference is the middle one of equals.
   const bool as_listed = paper || options.merge_order == MergeOrder::kFile;
   const std::vector<std::size_t> order = as_listed ? order_of_list(paths.size()) : order_by_content(sampled);
+  refuse_twins(sampled);
   sampled = in_order(std::move(sampled), order);
   std::vector<std::string> files;
   for (const auto& s : sampled) {
     files.push_back(s.scan.file);
     result.scans.push_back(summarize(s));
   }
+  result.warnings = warn_of_units(result.scans, context);
   const InitialPoses guesses = in_order(initial_poses, order);
   result.reference = static_cast<std::size_t>(std::find(order.begin(), order.end(), named) - order.begin());
   (paper ? run_paper_pipeline : run_robust_pipeline)({sampled, files, guesses, options, context, clock}, result);
   clock.end();
   restore_order(order, result);
+  for (std::size_t i = 0; i < paths.size(); ++i) result.poses[i].unit = result.scans[i].unit;
   return result;
 }
 

@@ -1,6 +1,7 @@
 #include "pipeline/scan_set.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <optional>
 #include <set>
 #include <string>
@@ -35,7 +36,14 @@ std::size_t find_scan(const std::vector<std::filesystem::path>& paths, const std
   for (std::size_t i = 0; i < paths.size(); ++i) {
     if (names[i] == name || paths[i] == name) return i;
   }
-  throw InvalidOptions("--reference " + name + ": no scan of that name; it must be one of the files given");
+  std::size_t number = 0;
+  const char* const end = name.data() + name.size();
+  const auto [rest, error] = std::from_chars(name.data(), end, number);
+  if (name.empty() || rest != end || error != std::errc()) {
+    throw InvalidOptions("--reference " + name + ": no scan of that name; it must be one of the files given");
+  }
+  if (number < paths.size()) return number;
+  throw InvalidOptions("--reference " + name + ": the scans have the numbers 0 to " + std::to_string(paths.size() - 1));
 }
 
 void check_paths(const std::vector<std::filesystem::path>& paths, const InitialPoses& initial_poses) {
@@ -76,9 +84,12 @@ std::vector<SampledScan> read_scans(const std::vector<std::filesystem::path>& pa
 }
 
 ScanSummary summarize(const SampledScan& s) {
-  return {s.scan.file,      s.scan.num_raw_points, s.scan.num_dropped_points, s.scan.cloud.size(), s.scan.voxel_size_m,
-          s.scan.spacing_m, s.scan.noise_m,        s.scan.extent_m,           s.outliers,          s.scan.origin,
-          s.middle};
+  return {s.scan.file,           name_of(parse_scan_path(s.scan.path).unit),
+          s.scan.num_raw_points, s.scan.num_dropped_points,
+          s.scan.cloud.size(),   s.scan.voxel_size_m,
+          s.scan.spacing_m,      s.scan.noise_m,
+          s.scan.extent_m,       s.outliers,
+          s.scan.origin,         s.middle};
 }
 
 std::vector<PreparedScan> prepare_scans(std::vector<SampledScan>& scans, const Resolutions& resolutions,

@@ -159,7 +159,8 @@ Json report_object(const PipelineResult& result, const PipelineOptions& options,
               {"options", options_json(options, context)},
               {"coarse_voxel_m", result.coarse_voxel_m},
               {"fine_voxel_m", result.fine_voxel_m},
-              {"set_log_odds", result.set_log_odds}};
+              {"set_log_odds", result.set_log_odds},
+              {"warnings", result.warnings}};
   const Eigen::Vector3d& origin = result.scans[result.reference].origin;
   for (const auto& s : result.scans) report["scans"].push_back(to_json(s));
   for (std::size_t i = 0; i < result.poses.size(); ++i) {

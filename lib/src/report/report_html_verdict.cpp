@@ -30,6 +30,7 @@ std::string remarks(const Json& report) {
     remark(scan_label(report, pair.at(0)) + " and " + scan_label(report, pair.at(1)) +
            " fit each other far worse than other pairs do.");
   }
+  for (const auto& warning : report.value("warnings", Json::array())) remark(sentence(warning));
   std::string free, unchecked;
   for (const auto& scan : report.at("scans")) {
     if (scan.at("status") == "unregistered" || !verifies(report)) continue;

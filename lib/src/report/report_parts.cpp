@@ -69,6 +69,7 @@ const char* name_of(OutlierMethod method) {
 Json to_json(const ScanSummary& s) {
   const OutlierSummary& o = s.outliers.summary();
   return {{"file", s.file},
+          {"unit", s.unit},
           {"points", s.num_points},
           {"dropped_points", s.num_dropped_points},
           {"working_points", s.num_working_points},

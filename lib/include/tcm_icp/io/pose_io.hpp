@@ -18,6 +18,7 @@ struct ScanPose {
   std::optional<Eigen::Isometry3d> pose_in_component;  ///< for scans that hold together, but not with the reference
   int component = 0;
   std::string verdict, reason;
+  std::string unit = "m";  ///< of the coordinates in the file; poses are for these in metres
 };
 
 /// poses.json, schema 1.

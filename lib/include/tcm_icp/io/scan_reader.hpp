@@ -21,7 +21,8 @@ enum class ReadAttributes { kNo, kYes };
 class ScanReader {
  public:
   /// Opens the file and reads its header.
-  /// @param path             a file of one scan, or one scan of a file: "hall.ptx#2" (scan_path.hpp)
+  /// @param path             a file of one scan, or one scan of a file: "hall.ptx#2"; with the unit of its coordinates
+  ///                         where they are not metres: "hall.ptx#2#ft" (scan_path.hpp). Points come in metres.
   /// @param read_attributes  kNo: coordinates only, attributes() is empty. What stands in a text file's other columns
   ///                         is checked all the same, so that a first pass over the coordinates finds every damaged
   ///                         line.

@@ -22,7 +22,7 @@ enum class Profile {
 
 struct PipelineOptions {
   Profile profile = Profile::kRobust;
-  std::string reference;  ///< file of the reference scan; empty: chosen by the correspondence graph
+  std::string reference;  ///< file or number of the reference scan; empty: chosen by the graph
   MergeOrder merge_order = MergeOrder::kTcm;
   double graph_threshold = 0;  ///< >= 0; measure below which scans are connected; 0: from the data
   /// Scans were levelled: z points up in each (kMaxLevelTilt_deg). Links that tilt one against another are not tried.

@@ -24,6 +24,7 @@ namespace tcm_icp {
 /// What is known of a scan before it is placed.
 struct ScanSummary {
   std::string file;
+  std::string unit = "m";                            ///< of the coordinates in the file; all lengths here are metres
   std::uint64_t num_points = 0;                      ///< finite points of the file
   std::uint64_t num_dropped_points = 0;              ///< NaN or infinite
   std::size_t num_working_points = 0;                ///< after outlier removal
@@ -46,7 +47,8 @@ struct PipelineResult {
   std::string method = "tcm";  ///< tcm, or the conventional method that registered the scans
   std::size_t reference = 0;
   std::vector<ScanSummary> scans;
-  std::vector<ScanPose> poses;  ///< for raw coordinates, in the order of the scans
+  std::vector<std::string> warnings;  ///< of scans in another unit than the others, as it seems
+  std::vector<ScanPose> poses;        ///< for raw coordinates, in the order of the scans
   /// Of each scan's final pose against all its neighbours; for a scan that is not registered, of its last attempt.
   /// Nothing for the reference, and in the paper profile.
   std::vector<std::optional<AlignmentEvidence>> evidence;
