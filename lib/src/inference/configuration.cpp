@@ -95,11 +95,11 @@ bool average_poses(const PairGraph& graph, Component& component) {
 // Parts to where the rest supports them most, or out.
 bool move_groups(const PairGraph& graph, Component& component) {
   bool moved = false;
-  for (const Cut& cut : weakest_cuts(graph, component)) {
-    if (cut.moved.size() < 2) continue;
+  for (const std::vector<std::size_t>& part : weakest_parts(graph, component)) {
+    if (part.size() < 2) continue;
     // As poses are by now: an earlier cut may have moved some of these.
-    if (!std::all_of(cut.moved.begin(), cut.moved.end(), [&](std::size_t i) { return component.has(i); })) continue;
-    const Cut now = measure_cut(graph, component, cut.moved);
+    if (!std::all_of(part.begin(), part.end(), [&](std::size_t i) { return component.has(i); })) continue;
+    const Cut now = measure_cut(graph, component, part);
     if (now.other_motion && now.other_support > std::max(now.support, 0.0) + kLeastGain) {
       for (const std::size_t i : now.moved) {
         component.T_reference_scan[i] = *now.other_motion * *component.T_reference_scan[i];

@@ -114,35 +114,69 @@ std::vector<std::vector<std::size_t>> minimum_cuts(const std::vector<Edge>& edge
 
 }  // namespace
 
-Cut measure_cut(const PairGraph& graph, const Component& component, std::vector<std::size_t> moved) {
-  Cut cut{std::move(moved), -graph.options().log_poses, 0, std::nullopt};
+namespace {
+
+// A pair across a cut, and where its scans put each other's middles, so that a motion that none of its hypotheses
+// agrees with is told at little cost.
+struct PairAcross {
+  const ComparedPair* pair;
+  bool moves_b;
+  Eigen::Isometry3d T_a_reference;       ///< at the poses as they are
+  Eigen::Vector3d middle_b;              ///< in the reference's frame, at the poses as they are
+  std::vector<Eigen::Vector3d> middles;  ///< of b in a's frame, by hypothesis
+
+  bool may_agree(const PairGraph& graph, const Eigen::Isometry3d& motion, const Eigen::Isometry3d& back) const {
+    const Eigen::Vector3d middle = T_a_reference * ((moves_b ? motion : back) * middle_b);
+    return std::any_of(middles.begin(), middles.end(), [&](const auto& m) { return graph.same_mean(m, middle); });
+  }
+};
+
+std::vector<PairAcross> pairs_across(const PairGraph& graph, const Component& component,
+                                     const std::vector<std::size_t>& moved) {
   std::vector<bool> is_moved(graph.num_scans(), false);
-  for (const std::size_t i : cut.moved) is_moved[i] = true;
-  std::vector<const ComparedPair*> across;
-  std::set<std::size_t> seen;
-  for (const std::size_t i : cut.moved) {
+  for (const std::size_t i : moved) is_moved[i] = true;
+  std::vector<PairAcross> across;
+  for (const std::size_t i : moved) {
     for (const std::size_t k : graph.pairs_of(i)) {
       const ComparedPair& pair = graph.pairs()[k];
-      const bool crosses = component.has(pair.a) && component.has(pair.b) && is_moved[pair.a] != is_moved[pair.b];
-      if (crosses && seen.insert(k).second) across.push_back(&pair);
+      const std::size_t other = pair.a == i ? pair.b : pair.a;
+      if (!component.has(other) || is_moved[other]) continue;
+      PairAcross p{&pair,
+                   pair.b == i,
+                   component.T_reference_scan[pair.a]->inverse(),
+                   *component.T_reference_scan[pair.b] * graph.mean_of(pair.b),
+                   {}};
+      for (const PoseHypothesis& h : pair.hypotheses) p.middles.push_back(h.mean);
+      across.push_back(std::move(p));
     }
   }
-  const auto pose = [&](std::size_t i, const Eigen::Isometry3d& motion) -> Eigen::Isometry3d {
-    return is_moved[i] ? motion * *component.T_reference_scan[i] : *component.T_reference_scan[i];
-  };
+  return across;
+}
+
+}  // namespace
+
+Cut measure_cut(const PairGraph& graph, const Component& component, std::vector<std::size_t> moved) {
+  Cut cut{std::move(moved), -graph.options().log_poses, 0, std::nullopt};
+  const std::vector<PairAcross> across = pairs_across(graph, component, cut.moved);
   const auto support = [&](const Eigen::Isometry3d& motion) {
+    const Eigen::Isometry3d back = motion.inverse();
     double sum = -graph.options().log_poses;
-    for (const ComparedPair* pair : across) sum += graph.support(*pair, pose(pair->a, motion), pose(pair->b, motion));
+    for (const PairAcross& p : across) {
+      if (!p.may_agree(graph, motion, back)) continue;
+      const Eigen::Isometry3d &T_a = *component.T_reference_scan[p.pair->a],
+                              &T_b = *component.T_reference_scan[p.pair->b];
+      sum += p.moves_b ? graph.support(*p.pair, T_a, motion * T_b) : graph.support(*p.pair, motion * T_a, T_b);
+    }
     return sum;
   };
   cut.support = support(Eigen::Isometry3d::Identity());
   std::vector<Eigen::Isometry3d> known{Eigen::Isometry3d::Identity()};
-  for (const ComparedPair* pair : across) {
-    const std::size_t scan = is_moved[pair->b] ? pair->b : pair->a, fixed = scan == pair->b ? pair->a : pair->b;
+  for (const PairAcross& p : across) {
+    const std::size_t scan = p.moves_b ? p.pair->b : p.pair->a, fixed = p.moves_b ? p.pair->a : p.pair->b;
     const Eigen::Isometry3d &T_scan = *component.T_reference_scan[scan], &T_fixed = *component.T_reference_scan[fixed];
     const Eigen::Vector3d mean = T_scan * graph.mean_of(scan);
-    for (const PoseHypothesis& h : pair->hypotheses) {
-      const Eigen::Isometry3d T_fixed_scan = scan == pair->b ? h.T_a_b : h.T_a_b.inverse();
+    for (const PoseHypothesis& h : p.pair->hypotheses) {
+      const Eigen::Isometry3d T_fixed_scan = p.moves_b ? h.T_a_b : h.T_a_b.inverse();
       const Eigen::Isometry3d motion = T_fixed * T_fixed_scan * T_scan.inverse();
       const Eigen::Vector3d moved_mean = motion * mean;
       const bool is_known = std::any_of(known.begin(), known.end(), [&](const Eigen::Isometry3d& m) {
@@ -159,6 +193,22 @@ Cut measure_cut(const PairGraph& graph, const Component& component, std::vector<
   return cut;
 }
 
+std::vector<std::size_t> frontier(const PairGraph& graph, const Component& component, const Cut& cut) {
+  const auto is_moved = [&](std::size_t i) { return std::binary_search(cut.moved.begin(), cut.moved.end(), i); };
+  const auto& T = component.T_reference_scan;
+  std::vector<std::size_t> out;
+  for (const std::size_t i : cut.moved) {
+    const auto& pairs = graph.pairs_of(i);
+    const bool holds = std::any_of(pairs.begin(), pairs.end(), [&](std::size_t k) {
+      const ComparedPair& pair = graph.pairs()[k];
+      const std::size_t other = pair.a == i ? pair.b : pair.a;
+      return component.has(other) && !is_moved(other) && graph.support(pair, *T[pair.a], *T[pair.b]) > 0;
+    });
+    if (holds) out.push_back(i);
+  }
+  return out.empty() ? cut.moved : out;
+}
+
 double lead_between(const std::vector<Cut>& cuts, std::size_t a, std::size_t b) {
   double least = std::numeric_limits<double>::infinity();
   for (const Cut& cut : cuts) {
@@ -168,16 +218,22 @@ double lead_between(const std::vector<Cut>& cuts, std::size_t a, std::size_t b) 
   return least;
 }
 
+std::vector<std::vector<std::size_t>> weakest_parts(const PairGraph& graph, const Component& component) {
+  std::set<std::vector<std::size_t>> parts;
+  for (auto& part : minimum_cuts(supported_pairs(graph, component), component)) {
+    if (!part.empty()) parts.insert(std::move(part));
+  }
+  return {parts.begin(), parts.end()};
+}
+
 std::vector<Cut> weakest_cuts(const PairGraph& graph, const Component& component) {
   std::set<std::vector<std::size_t>> parts;
-  for (auto& part : minimum_cuts(supported_pairs(graph, component), component)) parts.insert(std::move(part));
+  for (auto& part : weakest_parts(graph, component)) parts.insert(std::move(part));
   for (const std::size_t i : component.members()) {
     if (i != component.reference) parts.insert({i});
   }
   std::vector<Cut> cuts;
-  for (const auto& part : parts) {
-    if (!part.empty()) cuts.push_back(measure_cut(graph, component, part));
-  }
+  for (const auto& part : parts) cuts.push_back(measure_cut(graph, component, part));
   return cuts;
 }
 

@@ -25,10 +25,17 @@ struct Cut {
 /// The cut between `moved` and the other members.
 Cut measure_cut(const PairGraph& graph, const Component& component, std::vector<std::size_t> moved);
 
-/// The parts that minimum cuts of the pairs' support leave, and every member by itself, each once: for any two members
-/// the weakest hold between them is among them. Cost: a flow for each member, and for each cut the pairs across times
-/// the poses they lead to.
+/// The parts that minimum cuts of the pairs' support leave, without the reference, each once: for any two members the
+/// weakest hold between them is among them. Cost: a flow for each member.
+std::vector<std::vector<std::size_t>> weakest_parts(const PairGraph& graph, const Component& component);
+
+/// The cuts of those parts and of every member by itself, each once. Cost: a flow for each member, and for each cut the
+/// pairs across times the poses they lead to.
 std::vector<Cut> weakest_cuts(const PairGraph& graph, const Component& component);
+
+/// Those of the moved that pairs across the cut hold where they are: there, more may be found out. All of them where
+/// none does.
+std::vector<std::size_t> frontier(const PairGraph& graph, const Component& component, const Cut& cut);
 
 /// The least lead of the cuts between two members.
 double lead_between(const std::vector<Cut>& cuts, std::size_t a, std::size_t b);

@@ -24,6 +24,8 @@ namespace {
 
 // A scan overlaps few others much. Where there are more, all pairs are ranked at little cost first.
 constexpr std::size_t kFirstPartners = 6;
+// Doubled twice: a scan that has no clear place by then would cost as much again for every scan of a large set.
+constexpr std::size_t kMostPartners = 24;
 // Bounds the cost in large sets. Fewer would not do: what tells a place from its twin is that all pairs there are poor.
 constexpr std::size_t kImpliedPartners = 12;
 constexpr std::size_t kSlidesOfPose = 8;  // from one pose
@@ -128,11 +130,11 @@ struct PairSearch::Impl {
     }
   }
 
-  /// Twice as many partners for the wanted scans; false where they had all.
+  /// Twice as many partners for the wanted scans; false where they had all, or as many as there may be.
   bool reach_further(const std::vector<bool>& wanted) {
     bool more = false;
     for (std::size_t i = 0; i < scans.size(); ++i) {
-      if (!wanted[i] || reach[i] >= partners[i].size()) continue;
+      if (!wanted[i] || reach[i] >= std::min(kMostPartners, partners[i].size())) continue;
       reach[i] *= 2;
       more = true;
     }

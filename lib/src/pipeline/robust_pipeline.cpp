@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <sstream>
 #include <string>
 
 #include "core/acceptance.hpp"
@@ -110,7 +111,7 @@ class RobustPipeline {
     for (const std::size_t i : components.front().members()) out[i] = false;
     for (const Cut& cut : weakest_cuts(graph, components.front())) {
       if (cut.lead() >= kLeadToRest) continue;
-      for (const std::size_t i : cut.moved) out[i] = true;
+      for (const std::size_t i : frontier(graph, components.front(), cut)) out[i] = true;
     }
     return out;
   }
@@ -139,7 +140,10 @@ class RobustPipeline {
         for (std::size_t i = 0; i < size(); ++i) {
           const Decision& decision = settled_.back().decisions[i];
           if (settled_.back().measurements[i] && !decision.accepted()) {
-            in_.context.debug(in_.files[i] + " set aside: " + decision.text);
+            std::ostringstream said;
+            said << in_.files[i] << " set aside: " << decision.text << "; probability " << decision.probability
+                 << ", lead " << settled_.back().measurements[i]->lead;
+            in_.context.debug(said.str());
           }
           if (!settled_.back().measurements[i] || result_.measurements[i]) continue;
           result_.measurements[i] = settled_.back().measurements[i];
