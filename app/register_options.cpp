@@ -218,7 +218,7 @@ po::options_description configurable(RegisterOptions& o, Choices& c) {
       "annealing.final-temperature", value(p.refinement.final_temperature),
       "the same, at the end; cooling is geometric")("adjustment.lp-steps", value(p.adjustment.lp_steps),
                                                     "joint linear programs over all poses; 0: none")(
-      "adjustment.steps", value(p.adjustment.steps), "joint least-squares steps of all poses after them; 0: none");
+      "adjustment.steps", value(p.adjustment.steps), "most joint least-squares steps of all poses after them; 0: none");
   main.add(cloud_options(o.clouds, c)).add(outlier_options(p, c)).add(sampling_options(p)).add(placement);
   return main;
 }

@@ -186,6 +186,26 @@ TEST_F(CutsTest, TheLeadBetweenTwoScansIsOfTheWeakestCutThatPartsThem) {
   }
 }
 
+TEST_F(CutsTest, TheFrontierAreThoseThatPairsAcrossHold) {
+  add(0, 1, 8);
+  add(1, 2, 3);
+  add(2, 3, 9);
+  add(3, 4, 9);
+  world_.add(0, 4, {world_.aside(0, 4, 2, 7)});  // leads elsewhere
+  const PairGraph graph = world_.graph();
+  const Component component = world_.truth({0, 1, 2, 3, 4});
+  EXPECT_EQ(frontier(graph, component, measure_cut(graph, component, {2, 3, 4})), Scans{2});
+  EXPECT_EQ(frontier(graph, component, measure_cut(graph, component, {4})), Scans{4});
+}
+
+TEST_F(CutsTest, WhatNothingHoldsIsAllFrontier) {
+  add(0, 1, 8);
+  add(2, 3, 9);
+  const PairGraph graph = world_.graph();
+  const Component component = world_.truth({0, 1, 2, 3});
+  EXPECT_EQ(frontier(graph, component, measure_cut(graph, component, {2, 3})), (Scans{2, 3}));
+}
+
 TEST_F(CutsTest, OneScanAloneHasNoCuts) {
   add(0, 1, 6);
   EXPECT_TRUE(weakest_cuts(world_.graph(), component_of_one(0, 6)).empty());

@@ -21,6 +21,8 @@ constexpr std::size_t kLpMatches = 8'000;
 constexpr std::size_t kLpMatchesExact = 600;
 
 constexpr std::size_t kPairsOfScan = 8;
+// Of the noise of matches: poses of a thousand matches are known to a thirtieth of it.
+constexpr double kSettledMove = 0.01;
 
 std::size_t lp_matches_of_link(std::size_t num_links, LpSolver solver) {
   const std::size_t all = solver == LpSolver::kCgal ? kLpMatchesExact : kLpMatches;
@@ -66,10 +68,10 @@ class Adjustment {
     }
   }
 
-  /// False where there is nothing to match or nothing left to improve, or where the equations have no solution.
+  /// False where there is nothing to match or poses have settled, or where the equations have no solution.
   bool least_squares_step(double gate_m) {
     const std::vector<JointLink> links = match(gate_m);
-    const double threshold_m = kHuberFactor * robust_noise_m(links);
+    const double noise_m = robust_noise_m(links), threshold_m = kHuberFactor * noise_m;
     if (!(threshold_m > 0)) return false;
     const std::vector<TwistFrame> frames = scan_frames(scans_, T_reference_scan_);
     std::vector<LinkSums> sums(links.size());
@@ -89,7 +91,7 @@ class Adjustment {
     for (std::size_t i = 0; i < steps_m.size(); ++i) steps_m[i] = x.segment<6>(static_cast<Eigen::Index>(6 * i));
     record_.rms_move_m = move(frames, steps_m);
     ++record_.num_steps;
-    return true;
+    return record_.rms_move_m > kSettledMove * noise_m;
   }
 
   const AdjustmentRecord& record() const { return record_; }

@@ -113,23 +113,17 @@ void PeakList::add(const MapPeak& peak) {
   if (peaks_.size() > capacity_) peaks_.pop_back();
 }
 
-BestScores add_correlation_peaks(const MapSpectra& target, bool target_is_quarter_turned, const MapSpectra& source,
-                                 const Fourier& fourier, const Fourier& mask_fourier, double min_shared,
-                                 const HalfTurns& wanted, bool best_wanted, MapPeak peak, CorrelationScratch& scratch,
-                                 PeakList& list) {
-  BestScores best;
-  if (!wanted.straight && !wanted.half_turned) return best;
+void add_correlation_peaks(const MapSpectra& target, bool target_is_quarter_turned, const MapSpectra& source,
+                           const Fourier& fourier, const Fourier& mask_fourier, double min_shared, MapPeak peak,
+                           CorrelationScratch& scratch, PeakList& list) {
   multiply(target.detail, source.detail, target.structure, source.structure, scratch.detail);
   multiply(target.mask, source.mask, scratch.mask);
   const int size = fourier.size();
   const double source_heading_rad = peak.heading_rad;
   for (int half_turn = 0; half_turn < 2; ++half_turn) {
-    if (!(half_turn == 0 ? wanted.straight : wanted.half_turned)) continue;
     fourier.inverse(scratch.detail[half_turn], scratch.agreement);
     mask_fourier.inverse(scratch.mask[half_turn], scratch.shared);
-    const double floor = best_wanted ? 0 : list.floor();
-    const auto blocks = best_blocks(scratch.agreement, scratch.shared, size, min_shared, floor);
-    if (!blocks.empty()) (half_turn == 0 ? best.straight : best.half_turned) = blocks.front().score;
+    const auto blocks = best_blocks(scratch.agreement, scratch.shared, size, min_shared, list.floor());
     for (const BlockPeak& b : blocks) {
       const int y = b.row < size / 2 ? b.row : b.row - size, x = b.column < size / 2 ? b.column : b.column - size;
       peak.score = b.score;
@@ -140,7 +134,6 @@ BestScores add_correlation_peaks(const MapSpectra& target, bool target_is_quarte
       list.add(peak);
     }
   }
-  return best;
 }
 
 }  // namespace tcm_icp

@@ -37,32 +37,17 @@ class PeakList {
 /// True where both heading and shift are near, on maps of the same up directions.
 bool are_near(const MapPeak& a, const MapPeak& b, double heading_rad, double cells);
 
-/// Headings of the source to look at: the one it was turned to, and a half turn further.
-struct HalfTurns {
-  bool straight = true;
-  bool half_turned = true;
-};
-
-/// Scores of the best peaks at the two.
-struct BestScores {
-  double straight = 0;
-  double half_turned = 0;
-};
-
 /// Buffers of one thread.
 struct CorrelationScratch {
   Spectrum detail[2], mask[2];
   Image agreement, shared;
 };
 
-/// Correlates the source at its heading and half a turn further (the conjugate spectrum, for nothing), as far as they
-/// are `wanted`, and adds the best shifts. `peak` names maps and the heading of the source relative to the target;
-/// scores are correlation sums by the square root of the shared cells, shifts with fewer than `min_shared` are left
-/// out.
-/// @param best_wanted  scores of the best peaks are returned even where no peak gets into the list
-BestScores add_correlation_peaks(const MapSpectra& target, bool target_is_quarter_turned, const MapSpectra& source,
-                                 const Fourier& fourier, const Fourier& mask_fourier, double min_shared,
-                                 const HalfTurns& wanted, bool best_wanted, MapPeak peak, CorrelationScratch& scratch,
-                                 PeakList& list);
+/// Correlates the source at its heading, and half a turn further (the conjugate spectrum, for nothing), and adds the
+/// best shifts. `peak` names maps and the heading of the source relative to the target; scores are correlation sums by
+/// the square root of the shared cells, shifts with fewer than `min_shared` are left out.
+void add_correlation_peaks(const MapSpectra& target, bool target_is_quarter_turned, const MapSpectra& source,
+                           const Fourier& fourier, const Fourier& mask_fourier, double min_shared, MapPeak peak,
+                           CorrelationScratch& scratch, PeakList& list);
 
 }  // namespace tcm_icp

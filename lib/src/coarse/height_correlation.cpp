@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <string>
-#include <utility>
 
 #include "correlation_peaks.hpp"
 #include "map_agreement.hpp"
@@ -31,8 +29,6 @@ constexpr double kDistinctShare = 0.1;  // of a typical scan's width
 // Of ways that both scans may be up: those looked at in full, and what their peaks on coarse maps come to.
 constexpr std::size_t kPeaksScreened = 8, kMaxUps = 2;
 constexpr double kLikelyUps = 0.8;
-// And what the best peak at a heading comes to, of the best at any, for the heading to be looked at in full.
-constexpr double kLikelyHeading = 0.65;
 
 // One scan from above, for each way that may be up.
 struct ScanMaps {
@@ -51,9 +47,6 @@ struct ScanMaps {
   std::vector<MapSpectra> turned;                   // as a source, at the heading that is being searched
 };
 
-// The best peak at each of the search's headings over a full turn, by the places of the ways up.
-using ScoresByHeading = std::map<std::pair<std::size_t, std::size_t>, std::vector<double>>;
-
 struct Search {
   const HeightCorrelationOptions& options;
   int num_threads;
@@ -64,11 +57,7 @@ struct Search {
   void find_footprints(const std::vector<const Cloud*>& clouds);
   void choose_grid();
   void make_maps(const std::vector<const Cloud*>& clouds, bool for_candidates);
-  /// Fills `scores`, where asked for, by pair.
-  std::vector<PeakList> correlate(const std::vector<ScanPair>& pairs, std::size_t num_peaks,
-                                  std::vector<ScoresByHeading>* scores = nullptr);
-  void correlate_pair(const ScanPair& pair, int step, const Fourier& fourier, const Fourier& mask_fourier,
-                      CorrelationScratch& scratch, PeakList& list, ScoresByHeading* scores) const;
+  std::vector<PeakList> correlate(const std::vector<ScanPair>& pairs, std::size_t num_peaks);
   std::vector<PoseCandidate> candidates(const ScanPair& pair, const PeakList& peaks) const;
   double min_shared(const HeightMap& a, const HeightMap& b) const {
     return std::max(30.0, options.min_shared_share * std::min(a.num_seen, b.num_seen));
@@ -120,77 +109,47 @@ void Search::make_maps(const std::vector<const Cloud*>& clouds, bool for_candida
   });
 }
 
-const UpPair* find_ups(const ScanPair& pair, std::size_t target_map, std::size_t source_map) {
-  const auto up = std::find_if(pair.ups.begin(), pair.ups.end(),
-                               [&](const UpPair& u) { return u.target == target_map && u.source == source_map; });
-  return up == pair.ups.end() ? nullptr : &*up;
+bool wanted(const ScanPair& pair, std::size_t target_map, std::size_t source_map) {
+  return pair.ups.empty() || std::any_of(pair.ups.begin(), pair.ups.end(), [&](const UpPair& up) {
+           return up.target == target_map && up.source == source_map;
+         });
 }
 
-// Whether one of the headings beside the `step`-th of `num_steps` in a full turn is to be searched.
-bool is_wanted(const std::vector<bool>& headings, int step, int num_steps) {
-  if (headings.empty()) return true;
-  const auto n = static_cast<int>(headings.size());
-  // Exact in integers: step / num_steps of a turn lies between the headings `below` and the next, or on the first.
-  const int below = step * n / num_steps, rest = step * n % num_steps;
-  const auto at = [&](int k) { return headings[static_cast<std::size_t>(((k % n) + n) % n)]; };
-  return at(below) || (rest != 0 && at(below + 1));
-}
-
-void Search::correlate_pair(const ScanPair& pair, int step, const Fourier& fourier, const Fourier& mask_fourier,
-                            CorrelationScratch& scratch, PeakList& list, ScoresByHeading* scores) const {
-  const ScanMaps &target = scans[pair.target], &source = scans[pair.source];
-  const int quarter_turn = steps_per_quarter(), num_steps = 4 * quarter_turn;
-  MapPeak peak;
-  peak.heading_rad = step * heading_step_rad();
-  for (peak.target_map = 0; peak.target_map < target.maps.size(); ++peak.target_map) {
-    for (peak.source_map = 0; peak.source_map < source.maps.size(); ++peak.source_map) {
-      // Both scans upside down is the pose of both upright, seen from below.
-      if (target.is_second_sign(peak.target_map) && source.has_both_signs(peak.source_map)) continue;
-      const UpPair* const ups = find_ups(pair, peak.target_map, peak.source_map);
-      if (!pair.ups.empty() && ups == nullptr) continue;
-      const double least = min_shared(target.maps[peak.target_map], source.maps[peak.source_map]);
-      for (const bool quarter : {false, true}) {
-        const int straight = (step - (quarter ? quarter_turn : 0) + num_steps) % num_steps,
-                  half_turned = (straight + 2 * quarter_turn) % num_steps;
-        HalfTurns wanted;
-        if (ups != nullptr) {
-          wanted = {is_wanted(ups->headings, straight, num_steps), is_wanted(ups->headings, half_turned, num_steps)};
-        }
-        const BestScores best =
-            add_correlation_peaks((quarter ? target.quarter_turned : target.upright)[peak.target_map], quarter,
-                                  source.turned[peak.source_map], fourier, mask_fourier, least, wanted,
-                                  scores != nullptr, peak, scratch, list);
-        if (scores == nullptr) continue;
-        std::vector<double>& by_heading = (*scores)[{peak.target_map, peak.source_map}];
-        by_heading.resize(static_cast<std::size_t>(num_steps));
-        by_heading[static_cast<std::size_t>(straight)] = best.straight;
-        by_heading[static_cast<std::size_t>(half_turned)] = best.half_turned;
-      }
-    }
-  }
-}
-
-std::vector<PeakList> Search::correlate(const std::vector<ScanPair>& pairs, std::size_t num_peaks,
-                                        std::vector<ScoresByHeading>* scores) {
+std::vector<PeakList> Search::correlate(const std::vector<ScanPair>& pairs, std::size_t num_peaks) {
   const double distinct_cells = kDistinctShare * options.cells_across;
   std::vector<PeakList> lists(pairs.size(), PeakList(num_peaks, 1.5 * heading_step_rad(), distinct_cells / 2));
-  if (scores != nullptr) scores->resize(pairs.size());
   const Fourier fourier(grid_size), mask_fourier(grid_size / kMaskStep);
   // All scans at one heading, then all pairs: memory stays at one spectrum a scan.
   for (int step = 0; step < steps_per_quarter(); ++step) {
+    const double heading_rad = step * heading_step_rad();
     parallel_for(num_threads, scans.size(), [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
         scans[i].turned.clear();
         for (const auto& map : scans[i].maps) {
-          scans[i].turned.push_back(transform(turned_images(map, step * heading_step_rad(), grid_size), fourier));
+          scans[i].turned.push_back(transform(turned_images(map, heading_rad, grid_size), fourier));
         }
       }
     });
     parallel_for(num_threads, pairs.size(), [&](std::size_t begin, std::size_t end) {
       CorrelationScratch scratch;
       for (std::size_t k = begin; k < end; ++k) {
-        correlate_pair(pairs[k], step, fourier, mask_fourier, scratch, lists[k],
-                       scores != nullptr ? &(*scores)[k] : nullptr);
+        const ScanMaps& target = scans[pairs[k].target];
+        const ScanMaps& source = scans[pairs[k].source];
+        MapPeak peak;
+        for (peak.target_map = 0; peak.target_map < target.maps.size(); ++peak.target_map) {
+          for (peak.source_map = 0; peak.source_map < source.maps.size(); ++peak.source_map) {
+            // Both scans upside down is the pose of both upright, seen from below.
+            if (target.is_second_sign(peak.target_map) && source.has_both_signs(peak.source_map)) continue;
+            if (!wanted(pairs[k], peak.target_map, peak.source_map)) continue;
+            const double least = min_shared(target.maps[peak.target_map], source.maps[peak.source_map]);
+            for (const bool quarter : {false, true}) {
+              peak.heading_rad = heading_rad;
+              add_correlation_peaks((quarter ? target.quarter_turned : target.upright)[peak.target_map], quarter,
+                                    source.turned[peak.source_map], fourier, mask_fourier, least, peak, scratch,
+                                    lists[k]);
+            }
+          }
+        }
       }
     });
   }
@@ -278,13 +237,6 @@ void check_pairs(std::size_t num_scans, const std::vector<ScanPair>& pairs) {
   }
 }
 
-std::vector<bool> likely_headings(const std::vector<double>& scores) {
-  const double best = *std::max_element(scores.begin(), scores.end());
-  std::vector<bool> out;
-  for (const double score : scores) out.push_back(score >= kLikelyHeading * best);
-  return out;
-}
-
 }  // namespace
 
 std::vector<PairScreening> screen_by_height_maps(const std::vector<const Cloud*>& scans,
@@ -298,8 +250,7 @@ std::vector<PairScreening> screen_by_height_maps(const std::vector<const Cloud*>
   search.find_footprints(scans);
   search.choose_grid();
   search.make_maps(scans, false);
-  std::vector<ScoresByHeading> scores;
-  const auto lists = search.correlate(pairs, kPeaksScreened, &scores);
+  const auto lists = search.correlate(pairs, kPeaksScreened);
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     for (const MapPeak& peak : lists[k].peaks()) {
       out[k].score = std::max(out[k].score, peak.score);
@@ -307,8 +258,7 @@ std::vector<PairScreening> screen_by_height_maps(const std::vector<const Cloud*>
         return up.target == peak.target_map && up.source == peak.source_map;
       });
       if (known || out[k].ups.size() == kMaxUps || peak.score < kLikelyUps * out[k].score) continue;
-      out[k].ups.push_back(
-          {peak.target_map, peak.source_map, likely_headings(scores[k][{peak.target_map, peak.source_map}])});
+      out[k].ups.push_back({peak.target_map, peak.source_map});
     }
   }
   return out;

@@ -5,7 +5,7 @@ namespace tcm_icp {
 
 struct AdjustmentOptions {
   int lp_steps = 2;       ///< >= 0; linear programs over all poses at once, at the fine resolution
-  int steps = 10;         ///< >= 0; Gauss-Newton steps over all poses at once, after the programs
+  int steps = 10;         ///< >= 0; most Gauss-Newton steps over all poses at once, after the programs
   void validate() const;  ///< throws InvalidOptions
 };
 

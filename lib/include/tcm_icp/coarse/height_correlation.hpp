@@ -25,9 +25,6 @@ struct HeightCorrelationOptions {
 struct UpPair {
   std::size_t target = 0;
   std::size_t source = 0;
-  /// For headings of the source over the target, evenly spaced from 0, whether to search up to the next ones on either
-  /// side; none: everywhere.
-  std::vector<bool> headings{};
 };
 
 /// Two scans of a set, by their places in it.
@@ -66,8 +63,7 @@ struct PairScreening {
 };
 
 /// Scores are larger where more is shared, so they rank partners of a scan; they are no verdict. Of directions that may
-/// be up, a pair keeps two at most: those whose peaks come to 0.8 of the best; and of headings those whose best peak
-/// comes to 0.65 of the best of all, which holds for 98 of 100 that a full search finds right.
+/// be up, a pair keeps two at most: those whose peaks come to 0.8 of the best.
 /// @throws InvalidInput  as above
 /// Cost: with screening_options() 36 inverse transforms a pair, about 1 ms of processor time, for each of the ways that
 /// both may be up.
