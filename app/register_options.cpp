@@ -76,11 +76,12 @@ constexpr Names<Refinement, 5> kRefinements{"refinement",
                                               {"annealing", Refinement::kAnnealing},
                                               {"both", Refinement::kDescentThenAnnealing}}}};
 
-constexpr Names<CloudFormat, 4> kFormats{"format",
+constexpr Names<CloudFormat, 5> kFormats{"format",
                                          {{{"ply", CloudFormat::kPly},
                                            {"las", CloudFormat::kLas},
                                            {"pcd", CloudFormat::kPcd},
-                                           {"text", CloudFormat::kText}}}};
+                                           {"text", CloudFormat::kText},
+                                           {"e57", CloudFormat::kE57}}}};
 constexpr Names<CloudColour, 2> kColours{"colour", {{{"keep", CloudColour::kKeep}, {"scan", CloudColour::kScan}}}};
 
 // What the command line holds as text before it becomes an enumeration.
@@ -169,7 +170,8 @@ po::options_description sampling_options(PipelineOptions& p) {
 
 po::options_description cloud_options(OutputOptions& o, Choices& c) {
   po::options_description clouds("Clouds written");
-  clouds.add_options()("format", value(c.format), "ply, las (1.4), pcd or text: of the merged cloud and of --each")(
+  clouds.add_options()("format", value(c.format),
+                       "ply, las (1.4), pcd, text or e57: of the merged cloud and of --each")(
       "each", po::bool_switch(&o.each)->default_value(o.each),
       "every registered scan in the common frame in a file of its own, too: scans/")(
       "voxel", value(c.voxel),
