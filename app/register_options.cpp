@@ -10,6 +10,7 @@
 #include <iomanip>
 #include <limits>
 #include <ostream>
+#include <sstream>
 #include <utility>
 
 #include "option_binding.hpp"
@@ -284,8 +285,11 @@ void read_config(const std::string& path, const po::options_description& options
   if (!in || std::filesystem::is_directory(path)) {
     throw InputError(path, "", "the option file cannot be opened", "check the path given to --config");
   }
+  std::stringstream text;
+  text << in.rdbuf();
+  refuse_placeholders(text.str(), path);
   try {
-    store_checked(po::parse_config_file(in, options), map);
+    store_checked(po::parse_config_file(text, options), map);
   } catch (const po::unknown_option& e) {
     const std::string what = unknown_option_error(e, options, "").what();
     throw InvalidOptions(joined(path + ": " + what, "--print-config shows what may stand there"));

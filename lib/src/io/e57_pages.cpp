@@ -70,7 +70,8 @@ void E57Pages::read_header() {
   std::array<std::byte, kFileHeader> bytes;
   if (size_ < kFileHeader || stream_->read(bytes.data(), bytes.size()) != bytes.size() ||
       std::memcmp(bytes.data(), "ASTM-E57", 8) != 0) {
-    fail("byte 0", "is not an E57 file: it does not begin with 'ASTM-E57'");
+    throw InputError(path_, "byte 0", "is not an E57 file: it does not begin with 'ASTM-E57'",
+                     "give the file the extension of its format");
   }
   stream_at_ = kFileHeader;
   const auto major = load<std::uint32_t>(bytes.data() + 8);

@@ -24,7 +24,10 @@ class Parser {
 
   LasHeader parse() {
     const std::byte* const magic = input_.peek(4);
-    if (!magic || input_.head(4) != "LASF") fail("byte 0", "is not a LAS file: it does not begin with 'LASF'");
+    if (!magic || input_.head(4) != "LASF") {
+      throw InputError(input_.path(), "byte 0", "is not a LAS file: it does not begin with 'LASF'",
+                       "give the file the extension of its format");
+    }
     const std::byte* bytes = input_.peek(kShortestHeader);
     if (!bytes) fail("header", "ends within its header");
     const int minor = load<std::uint8_t>(bytes + 25);
@@ -50,7 +53,7 @@ class Parser {
     }
     if (minor == 4) read_long_fields();
     check_size();
-    input_.consume(header_size_);
+    if (!input_.skip(header_size_)) fail("header", "ends within its header");
     read_records();
     read_records_behind();
     if (!input_.skip(first_point_ - input_.offset())) fail(input_.byte_place(), "ends before its first point");
@@ -76,7 +79,8 @@ class Parser {
 
   [[noreturn]] void refuse_compressed() const {
     const std::string name = input_.path().filename().string();
-    const std::string las = input_.path().stem().string() + ".las";
+    std::string las = input_.path().stem().string() + ".las";
+    if (las == name) las = input_.path().stem().string() + "_unpacked.las";
     const bool copc = input_.head(kHeader14 + 6).ends_with("copc");
     throw InputError(input_.path(), "",
                      std::string("is compressed (") + (copc ? "COPC" : "LAZ") + "), which is not read",
