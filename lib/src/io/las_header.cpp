@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t kShortestHeader = 227, kHeader14 = 375;
 constexpr std::array<std::size_t, 11> kPointSizes{20, 28, 26, 34, 57, 63, 30, 36, 38, 59, 67};
 constexpr std::size_t kVlrHeader = 54, kEvlrHeader = 60, kExtraEntry = 192;
-constexpr std::uint16_t kExtraBytes = 4, kWellKnownText = 2112, kGeoKeys = 34735;  // of records
+constexpr std::uint16_t kExtraBytesId = 4, kWellKnownTextId = 2112, kGeoKeysId = 34735;  // of records
 
 enum class RecordKind { kExtraBytes, kWellKnownText, kGeoKeys, kOther };
 
@@ -156,10 +156,10 @@ class Parser {
     const std::string_view user(reinterpret_cast<const char*>(head + 2), 16);
     const std::string_view name = user.substr(0, user.find('\0'));
     const auto id = load<std::uint16_t>(head + 18);
-    if (name == "LASF_Spec" && id == kExtraBytes) return RecordKind::kExtraBytes;
+    if (name == "LASF_Spec" && id == kExtraBytesId) return RecordKind::kExtraBytes;
     if (name != "LASF_Projection") return RecordKind::kOther;
-    if (id == kWellKnownText) return RecordKind::kWellKnownText;
-    return id == kGeoKeys ? RecordKind::kGeoKeys : RecordKind::kOther;
+    if (id == kWellKnownTextId) return RecordKind::kWellKnownText;
+    return id == kGeoKeysId ? RecordKind::kGeoKeys : RecordKind::kOther;
   }
 
   void use(RecordKind kind, const std::byte* content, std::size_t length) {
