@@ -2,16 +2,15 @@
 // Writes an E57 file (ASTM E2807-11): scans with points in frames of their own, and the pose of each in the file's.
 
 #include <Eigen/Geometry>
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <limits>
 #include <string>
 #include <vector>
 
 #include "cloud_sink.hpp"
 #include "e57_page_writer.hpp"
+#include "e57_xml.hpp"
 
 namespace tcm_icp {
 
@@ -35,37 +34,18 @@ class E57Writer {
   void finish(const std::string& description, const std::string& coordinate_system);
 
  private:
-  /// How a column's values stand in their byte stream.
-  enum class Coding { kFloat32, kFloat64, kInteger, kFlag };
-
-  struct Column {
-    std::string name;  ///< of the element
-    Coding coding = Coding::kFloat64;
-    ScalarType type = ScalarType::kFloat64;
-    std::size_t from = 0;  ///< [bytes] in the record
-    double least = std::numeric_limits<double>::infinity(), most = -std::numeric_limits<double>::infinity();
-  };
-
-  struct Scan {
-    std::string name;
-    Eigen::Isometry3d T_file_scan;
-    std::vector<Column> columns;
+  struct Scan : E57WrittenScan {
     std::size_t record_size = 0;
-    std::size_t packet_points = 0;  ///< points in a full packet
-    std::uint64_t offset = 0;       ///< of its section, logical
-    std::uint64_t num_points = 0;
+    std::size_t packet_points = 0;       ///< points in a full packet
+    std::uint64_t offset = 0;            ///< of its section, logical
     std::vector<std::uint64_t> packets;  ///< where each begins, logical
-    std::array<std::uint64_t, 2> digest{};
   };
 
-  static Column column_of(const RecordColumn& record, const std::vector<Column>& others);
+  static E57Column column_of(const RecordColumn& record, const std::vector<E57Column>& others);
   void check_size(Scan& scan) const;
   void write_packet(const std::byte* records, std::size_t count);
   void end_scan();
   void write_index(const Scan& scan);
-
-  std::string xml(const std::string& description, const std::string& coordinate_system) const;
-  static std::string scan_xml(const Scan& scan, const std::string& description);
 
   E57PageWriter pages_;
   std::vector<Scan> scans_;
