@@ -77,19 +77,21 @@ E57Column E57Writer::column_of(const RecordColumn& record, const std::vector<E57
   const std::string name = kE57Prefix + element_name(record.name);
   column.name = name;
   const auto is_taken = [&](const E57Column& other) { return other.name == column.name; };
-  for (int k = 2; std::any_of(others.begin(), others.end(), is_taken); ++k)
+  for (int k = 2; std::any_of(others.begin(), others.end(), is_taken); ++k) {
     column.name = name + '_' + std::to_string(k);
+  }
   return column;
 }
 
 void E57Writer::check_size(Scan& scan) const {
   std::size_t bits = 0;
-  for (const E57Column& column : scan.columns)
+  for (const E57Column& column : scan.columns) {
     bits += column.coding == E57Coding::kFlag ? 1 : 8 * scalar_size(column.type);
+  }
   constexpr std::size_t kStep = 8;  // so that every column of a full packet ends with a byte
   const std::size_t head = kPacketHeader + 2 * scan.columns.size();
   const std::size_t room = head < kLargestPacket ? kLargestPacket - head : 0;
-  scan.packet_points = std::min(8 * room / bits / kStep * kStep, kLargestPacket / 2);
+  scan.packet_points = std::min(8 * room / std::max<std::size_t>(bits, 1) / kStep * kStep, kLargestPacket / 2);
   if (scan.packet_points == 0) {
     throw OutputError(pages_.path(), "cannot hold " + std::to_string(scan.columns.size()) + " columns a point",
                       "use --format ply");
