@@ -26,9 +26,17 @@ po::error unknown_option_error(const po::unknown_option& error, const po::option
   return po::error(error.what() + did_you_mean(typed, known, dashes));
 }
 
+void refuse_placeholders(const std::string& text, const std::string& where) {
+  for (const char* const placeholder : {"%original_token%", "%canonical_option%", "%option%", "%prefix%", "%value%"}) {
+    if (text.find(placeholder) == std::string::npos) continue;
+    throw InvalidOptions(where + " holds " + placeholder + ", which no option and no name may; write it otherwise");
+  }
+}
+
 po::parsed_options parse_arguments(const Arguments& arguments, const po::options_description& options,
                                    const char* positional) {
   constexpr int kStyle = po::command_line_style::unix_style & ~po::command_line_style::allow_guessing;
+  for (const std::string& argument : arguments) refuse_placeholders(argument, "the command line");
   po::positional_options_description places;
   if (*positional != '\0') places.add(positional, -1);
   try {

@@ -4,6 +4,7 @@
 #include <boost/program_options/options_description.hpp>
 #include <boost/program_options/parsers.hpp>
 #include <boost/program_options/variables_map.hpp>
+#include <string>
 
 #include "command.hpp"
 
@@ -20,6 +21,10 @@ boost::program_options::parsed_options parse_arguments(const Arguments& argument
 boost::program_options::error unknown_option_error(const boost::program_options::unknown_option& error,
                                                    const boost::program_options::options_description& options,
                                                    const char* dashes);
+
+/// Boost's errors replace such words by what was typed, for ever where that holds them itself.
+/// @throws InvalidOptions  where `text` has one. @param where  it stands, for the message
+void refuse_placeholders(const std::string& text, const std::string& where);
 
 /// What the commands have in common about how they run.
 struct RunOptions {

@@ -10,6 +10,7 @@
 #include <iomanip>
 #include <limits>
 #include <ostream>
+#include <sstream>
 #include <utility>
 
 #include "option_binding.hpp"
@@ -76,11 +77,12 @@ constexpr Names<Refinement, 5> kRefinements{"refinement",
                                               {"annealing", Refinement::kAnnealing},
                                               {"both", Refinement::kDescentThenAnnealing}}}};
 
-constexpr Names<CloudFormat, 4> kFormats{"format",
+constexpr Names<CloudFormat, 5> kFormats{"format",
                                          {{{"ply", CloudFormat::kPly},
                                            {"las", CloudFormat::kLas},
                                            {"pcd", CloudFormat::kPcd},
-                                           {"text", CloudFormat::kText}}}};
+                                           {"text", CloudFormat::kText},
+                                           {"e57", CloudFormat::kE57}}}};
 constexpr Names<CloudColour, 2> kColours{"colour", {{{"keep", CloudColour::kKeep}, {"scan", CloudColour::kScan}}}};
 
 // What the command line holds as text before it becomes an enumeration.
@@ -169,7 +171,8 @@ po::options_description sampling_options(PipelineOptions& p) {
 
 po::options_description cloud_options(OutputOptions& o, Choices& c) {
   po::options_description clouds("Clouds written");
-  clouds.add_options()("format", value(c.format), "ply, las (1.4), pcd or text: of the merged cloud and of --each")(
+  clouds.add_options()("format", value(c.format),
+                       "ply, las (1.4), pcd, text or e57: of the merged cloud and of --each")(
       "each", po::bool_switch(&o.each)->default_value(o.each),
       "every registered scan in the common frame in a file of its own, too: scans/")(
       "voxel", value(c.voxel),
@@ -282,8 +285,11 @@ void read_config(const std::string& path, const po::options_description& options
   if (!in || std::filesystem::is_directory(path)) {
     throw InputError(path, "", "the option file cannot be opened", "check the path given to --config");
   }
+  std::stringstream text;
+  text << in.rdbuf();
+  refuse_placeholders(text.str(), path);
   try {
-    store_checked(po::parse_config_file(in, options), map);
+    store_checked(po::parse_config_file(text, options), map);
   } catch (const po::unknown_option& e) {
     const std::string what = unknown_option_error(e, options, "").what();
     throw InvalidOptions(joined(path + ": " + what, "--print-config shows what may stand there"));

@@ -98,7 +98,9 @@ InitialPoses poses_in_headers(const std::vector<std::filesystem::path>& paths) {
   for (const auto& path : paths) poses.push_back(ScanReader(path, ReadAttributes::kNo).header_pose());
   const bool has_any = std::any_of(poses.begin(), poses.end(), [](const auto& pose) { return pose.has_value(); });
   if (has_any) return poses;
-  throw InvalidOptions("--init headers: no scan has a pose in its file; only PTX and E57 have them");
+  throw InvalidOptions(
+      "--init headers: no scan has a pose in its file; only PTX and E57 have them; leave it out, and poses are "
+      "searched");
 }
 
 }  // namespace

@@ -7,7 +7,7 @@ usage() {
   cat <<'TEXT'
 Usage: install_dependencies.sh [--tests] [--checks] [--conventional] [--paper] [--benchmarks] [--comparison]
   --tests       also what the tests need (GoogleTest)
-  --checks      also what the format and script checks need (clang-format, shellcheck)
+  --checks      also what the format and script checks and scripts/fuzz.sh need (clang-format, shellcheck, clang)
   --conventional
                 also what register --method icp and features need (PCL: with its dependencies about 1 GB)
   --paper       also what scripts/paper_tables.py and scripts/ablations.py need (PCL, numpy, matplotlib)
@@ -23,7 +23,7 @@ packages=(g++ cmake ninja-build ccache libcgal-dev libeigen3-dev libfftw3-dev li
 while (($# > 0)); do
   case $1 in
     --tests) packages+=(libgtest-dev) ;;
-    --checks) packages+=(clang-format shellcheck) ;;
+    --checks) packages+=(clang-format shellcheck clang libclang-rt-14-dev) ;;
     --conventional) packages+=(libpcl-dev) ;;
     --paper) packages+=(libpcl-dev python3-matplotlib python3-numpy) ;;
     --benchmarks) packages+=(libbenchmark-dev libnanoflann-dev libpcl-dev python3) ;;

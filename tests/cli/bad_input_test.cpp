@@ -31,8 +31,8 @@ TEST_F(BadInput, IsAFolder) {
 }
 
 TEST_F(BadInput, IsAnUnknownExtension) {
-  folder_.write("c.rcp", "0 0 0\n");
-  expect_bad({"a.xyz", "c.rcp"}, 2, {"c.rcp", "no known format", "convert it"});
+  folder_.write("c.doc", "0 0 0\n");
+  expect_bad({"a.xyz", "c.doc"}, 2, {"c.doc", "no known format", "convert it"});
 }
 
 TEST_F(BadInput, IsFewerThanThreePoints) {
@@ -103,6 +103,15 @@ TEST_F(BadInput, IsAnOptionFileWithAnUnknownName) {
   folder_.write("options.ini", "threads = many\n");
   expect_bad({"a.xyz", "b.xyz", "--config", "options.ini"}, 1, {"options.ini", "threads", "many"});
   expect_bad({"a.xyz", "b.xyz", "--config", "none.ini"}, 2, {"none.ini", "cannot be opened"});
+}
+
+// Boost replaces such words in its messages by what was typed: for ever, where that holds them.
+TEST_F(BadInput, IsAWordThatMessagesReplace) {
+  for (const char* const word : {"--%original_token%s", "--threads=%value%", "%option%.xyz"}) {
+    expect_bad({"a.xyz", "b.xyz", word}, 1, {"the command line holds %", "write it otherwise"});
+  }
+  folder_.write("options.ini", "seeds%original_token% = 1\n");
+  expect_bad({"a.xyz", "b.xyz", "--config", "options.ini"}, 1, {"options.ini holds %original_token%"});
 }
 
 }  // namespace

@@ -66,5 +66,15 @@ TEST_F(TruthFile, ThatIsBrokenIsAnInputError) {
   EXPECT_NO_THROW(read("{\"scans\": [" + scan + "]}"));
 }
 
+TEST_F(TruthFile, WithNumbersOrRowsThatCannotBeIsAnInputError) {
+  EXPECT_THROW(read(R"({"scans": [{"file": "a.ply", "pose": [[20e610]]}]})"), InputError) << "beyond double";
+  const std::string scan = R"({"file": "a.ply", "pose": )" + kQuarterTurn + "}";
+  std::string rows = "[[1";  // a matrix as wide as its first row and as high as all would take terabytes
+  for (int i = 0; i < 400'000; ++i) rows += ",1";
+  rows += "]";
+  for (int i = 0; i < 400'000; ++i) rows += ",[]";
+  EXPECT_THROW(read("{\"scans\": [" + scan + "], \"overlap\": " + rows + "]}"), InputError);
+}
+
 }  // namespace
 }  // namespace tcm_icp

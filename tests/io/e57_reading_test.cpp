@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "io/e57_file.hpp"
+#include "io/e57_pages.hpp"
 #include "io/temp_files.hpp"
 #include "tcm_icp/core/error.hpp"
 #include "tcm_icp/io/scan_path.hpp"
@@ -136,6 +137,16 @@ TEST(E57Reading, EachScanOfAFileIsOne) {
   const auto whole = folder.path() / "a.e57";
   EXPECT_NE(error_of<InputError>([&] { read_whole(whole); }).find("holds 2 scans; name one of them, as a.e57#1"),
             std::string::npos);
+}
+
+TEST(E57Reading, CheckSumsAreTheSameBitByBitByTableAndByInstruction) {
+  std::string bytes;
+  for (int i = 0; i < 100; ++i) {
+    const auto* const from = reinterpret_cast<const std::byte*>(bytes.data());
+    EXPECT_EQ(crc32c(from, bytes.size()), test::slow_crc32c(bytes)) << i;
+    EXPECT_EQ(crc32c_by_table(from, bytes.size()), test::slow_crc32c(bytes)) << i;
+    bytes += static_cast<char>(37 * i);
+  }
 }
 
 TEST(E57Reading, DamageIsFoundByTheCheckSumOfItsPage) {

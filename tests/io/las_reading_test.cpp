@@ -181,6 +181,57 @@ TEST(LasReading, WhatStandsBehindThePointsIsNotLookedAt) {
   expect_plain(read_whole(folder.write("a.las", las_file(parts))));
 }
 
+/// A record as LAS 1.4 has them behind the points.
+std::string record_behind(const std::string& user, std::uint16_t id, const std::string& content) {
+  return joined(U16{0}) + padded(user, 16) + joined(id, std::uint64_t{content.size()}) + padded("described", 32) +
+         content;
+}
+
+/// One point of LAS 1.4, with four bytes more than its format has.
+std::string las_with_behind(const std::string& records, std::uint32_t count, const std::string& before = "") {
+  LasParts parts;
+  parts.minor = 4;
+  parts.num_points = 1;
+  parts.record_size = 24;
+  parts.records = before;
+  parts.num_records = before.empty() ? 0 : 1;
+  parts.points = padded(las_xyz(0, 0, 0), 20) + joined(2.5F);
+  std::string file = las_file(parts);
+  test::put(file, 235, std::uint64_t{file.size()});
+  test::put(file, 243, count);
+  return file + records;
+}
+
+TEST(LasReading, RecordsBehindThePointsTellWhatNoneBeforeThemDoes) {
+  const TempFolder folder;
+  const std::string other = record_behind("someone", 2112, "PROJCS[\"wrong\"]");
+  const std::string system = record_behind("LASF_Projection", 2112, "PROJCS[\"behind\"]");
+  const std::string extra = record_behind("LASF_Spec", 4, las_extra("echo", 9, 0));
+  const auto path = folder.write("a.las", las_with_behind(other + system + extra, 3));
+  EXPECT_EQ(ScanReader(path).coordinate_system(), "PROJCS[\"behind\"]");
+  EXPECT_EQ(attribute_of<float>(read_whole(path), 0, "echo"), 2.5F);
+  folder.write("a.las", las_with_behind(system, 1, las_record("LASF_Projection", 2112, "PROJCS[\"before\"]")));
+  EXPECT_EQ(ScanReader(path).coordinate_system(), "PROJCS[\"before\"]");
+  folder.write("a.las", las_with_behind(extra, 1, las_record("LASF_Spec", 4, las_extra("first", 9, 0))));
+  EXPECT_EQ(ScanReader(path).attributes().back().name, "first");
+}
+
+TEST(LasReading, RecordsBehindThePointsThatCannotBeAreLeftAlone) {
+  const TempFolder folder;
+  std::string longer = record_behind("LASF_Projection", 2112, "PROJCS[\"a\"]");
+  test::put(longer, 20, std::uint64_t{1} << 60U);
+  for (const auto& [records, count] : std::vector<std::pair<std::string, std::uint32_t>>{
+           {longer, 1}, {"short", 4'000'000'000U}, {"", 1}, {record_behind("a", 1, ""), 4'000'000'000U}}) {
+    std::string file = las_with_behind(records, count);
+    const auto path = folder.write("a.las", file);
+    EXPECT_EQ(ScanReader(path).coordinate_system(), "");
+    EXPECT_EQ(read_whole(path).block.size(), 1U);
+    test::put(file, 235, ~std::uint64_t{0});
+    folder.write("a.las", file);
+    EXPECT_EQ(read_whole(path).block.size(), 1U);
+  }
+}
+
 TEST(LasReading, ACountOfRecordsThatCannotBeCostsNothing) {
   const TempFolder folder;
   LasParts parts = plain();

@@ -206,5 +206,20 @@ TEST(TextReading, ALineWithoutEndIsRefused) {
   EXPECT_EQ(read_whole(longest).block.points, Points({{1, 2, 3}, {4, 5, 6}}));
 }
 
+TEST(TextReading, CommasBetweenColumnsAndWithinNumbersAreRefused) {
+  const TempFolder folder;
+  const auto message = [&](const std::string& content) {
+    return error_of<InputError>([&] { read_whole(folder.write("a.csv", content)); });
+  };
+  const std::string both = "1,25,2,05,3,75\r\n-4,50,5,25,6,125\r\n";
+  EXPECT_NE(message(both).find("line 1: has commas between columns and, as it seems, within numbers"),
+            std::string::npos);
+  // Whole numbers of six columns, as millimetres and a colour are; a fraction that says otherwise; names of columns.
+  for (const char* const content : {"1,2,3,0,50,255\n4,5,6,7,8,9\n", "1,25,2,05,3,75\n1.5,2,3,4,5,6\n",
+                                    "01,2,3,04,5,6\n", "x,y,z,a,b,c\n1,25,2,05,3,75\n"}) {
+    EXPECT_GE(read_whole(folder.write("a.csv", content)).block.size(), 1U) << content;
+  }
+}
+
 }  // namespace
 }  // namespace tcm_icp

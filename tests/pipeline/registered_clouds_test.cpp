@@ -7,9 +7,13 @@
 #include <cstdio>
 #include <limits>
 
+#include "io/binary_text.hpp"
+#include "io/las_file.hpp"
 #include "io/temp_files.hpp"
 #include "tcm_icp/core/error.hpp"
 #include "tcm_icp/core/random.hpp"
+#include "tcm_icp/io/scan_path.hpp"
+#include "tcm_icp/io/scan_reader.hpp"
 
 namespace tcm_icp {
 namespace {
@@ -95,6 +99,78 @@ TEST(RegisteredClouds, LasHasProjectedCoordinatesToAFractionOfAMicrometre) {
   const auto& names = b.attributes;
   EXPECT_TRUE(std::none_of(names.begin(), names.end(), [](const Attribute& x) { return x.name == "time"; }));
   EXPECT_FALSE(fs::exists(folder.path() / "scans/c.xyz.las"));
+}
+
+TEST(RegisteredClouds, E57HasEachScanRawWithItsPose) {
+  const TempFolder folder;
+  const Scene scene(folder);
+  OutputOptions options;
+  const WholeScan ply = merged(folder, scene, options);
+  options.format = CloudFormat::kE57;
+  options.each = true;
+  write_registered_clouds(folder.path(), scene.paths, scene.result, options, {});
+  const auto scans = scans_in(folder.path() / "registered.e57");
+  ASSERT_EQ(scans.size(), 2U);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const WholeScan raw = read_whole(scene.paths[i]), written = read_whole(scans[i]);
+    const fs::path own = folder.path() / ("scans/" + scene.paths[i].filename().string() + ".e57");
+    EXPECT_EQ(written.block.points, raw.block.points);
+    EXPECT_EQ(written.attributes, raw.attributes);
+    EXPECT_EQ(written.block.attributes, raw.block.attributes);
+    EXPECT_EQ(read_whole(own).block.points, raw.block.points);
+    const auto pose = ScanReader(scans[i]).header_pose();
+    ASSERT_TRUE(pose.has_value());
+    EXPECT_EQ(pose->matrix(), ScanReader(own).header_pose()->matrix());
+    for (std::size_t k = 0; k < 3000; ++k) {
+      ASSERT_LT((*pose * written.block.points[k] - ply.block.points[3000 * i + k]).norm(), 1e-8) << k;
+    }
+  }
+  EXPECT_EQ(ScanReader(scans[0]).coordinate_system(), "");
+}
+
+TEST(RegisteredClouds, E57InPartsHasTheSamePoints) {
+  const TempFolder folder;
+  const Scene scene(folder);
+  OutputOptions options;
+  options.voxel_m = 0.8;
+  options.format = CloudFormat::kE57;
+  const auto points = [&](std::uint64_t most_voxels) {
+    write_registered_clouds(folder.path(), scene.paths, scene.result, options, {}, most_voxels);
+    std::vector<std::array<double, 3>> all;
+    for (const auto& scan : scans_in(folder.path() / "registered.e57")) {
+      for (const auto& p : sorted_points(read_whole(scan))) all.push_back(p);
+    }
+    std::sort(all.begin(), all.end());
+    return all;
+  };
+  const auto whole = points(kMostVoxels);
+  EXPECT_EQ(points(300), whole);
+  EXPECT_GT(whole.size(), 1000U);
+}
+
+TEST(RegisteredClouds, E57NamesTheReferencesCoordinateSystemWhereItHolds) {
+  const TempFolder folder;
+  Scene scene(folder);
+  const auto system_in_result = [&](const std::string& system) {
+    test::LasParts parts;
+    parts.records = test::las_record("LASF_Projection", 2112, system + '\0');
+    parts.num_records = 1;
+    parts.num_points = 20;
+    for (int i = 0; i < 20; ++i) parts.points += test::padded(test::las_xyz(i, 2 * i, -i), 20);
+    scene.paths[0] = folder.write("a.las", test::las_file(parts));
+    OutputOptions options;
+    options.format = CloudFormat::kE57;
+    write_registered_clouds(folder.path(), scene.paths, scene.result, options, {});
+    return ScanReader(folder.path() / "registered.e57#1").coordinate_system();
+  };
+  const std::string system = "PROJCS[\"somewhere\"]";
+  EXPECT_EQ(system_in_result(system), system);
+  EXPECT_EQ(system_in_result("EPSG:25832"), "") << "no well-known text";
+  scene.result.scans[0].unit = "ft";
+  EXPECT_EQ(system_in_result(system), "") << "the coordinates were converted";
+  scene.result.scans[0].unit = "m";
+  scene.result.poses[0].T_reference_scan.translation() << 1, 0, 0;
+  EXPECT_EQ(system_in_result(system), "") << "and moved";
 }
 
 TEST(RegisteredClouds, WithoutRegisteredScansTheCloudIsEmpty) {

@@ -1,10 +1,10 @@
 #include "tcm_icp/evaluation/truth.hpp"
 
 #include <algorithm>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "io/pose_json.hpp"
 #include "tcm_icp/core/error.hpp"
 #include "tcm_icp/core/rigid_transform.hpp"
 
@@ -15,18 +15,12 @@ using Json = nlohmann::json;
 
 constexpr double kRigidWithin = 1e-3;  // as the scorer of the shared scenes has it
 
-Json parse(const std::filesystem::path& path) {
-  std::ifstream in(path);
-  if (!in) throw InputError(path, "", "cannot be opened", "check the path");
-  try {
-    return Json::parse(in);
-  } catch (const Json::parse_error& e) {
-    throw InputError(path, "byte " + std::to_string(e.byte), "is not JSON", "check that it is a truth.json");
-  }
-}
-
-Eigen::MatrixXd matrix(const Json& rows) {
+Eigen::MatrixXd matrix(const Json& rows, const std::filesystem::path& path) {
   const auto columns = rows.empty() ? 0 : rows.front().size();
+  for (const Json& row : rows) {  // before there is room for all: a long row among short ones would ask for too much
+    if (!row.is_array() || row.size() != columns)
+      throw InputError(path, "", "a matrix has rows of different lengths", "see docs/formats.md");
+  }
   Eigen::MatrixXd m(static_cast<Eigen::Index>(rows.size()), static_cast<Eigen::Index>(columns));
   for (std::size_t r = 0; r < rows.size(); ++r) {
     for (std::size_t c = 0; c < columns; ++c) {
@@ -40,7 +34,7 @@ TrueScan true_scan(const Json& entry, const std::filesystem::path& path) {
   TrueScan scan;
   scan.file = entry.at("file").get<std::string>();
   scan.group = entry.value("group", 0);
-  const Eigen::MatrixXd pose = matrix(entry.at("pose"));
+  const Eigen::MatrixXd pose = matrix(entry.at("pose"), path);
   if (pose.rows() != 4 || pose.cols() != 4 || !is_rigid(pose, kRigidWithin)) {
     throw InputError(path, "scan " + scan.file, "pose is not a rigid 4x4 matrix", "give rotation and translation");
   }
@@ -62,7 +56,7 @@ Truth truth_from(const Json& json, const std::filesystem::path& path) {
     truth.tolerance.rmse_m = tolerance->value("rmse_m", truth.tolerance.rmse_m);
   }
   if (const auto overlap = json.find("overlap"); overlap != json.end()) {
-    truth.overlap = matrix(*overlap);
+    truth.overlap = matrix(*overlap, path);
     const auto n = static_cast<Eigen::Index>(truth.scans.size());
     if (truth.overlap.rows() != n || truth.overlap.cols() != n) {
       throw InputError(path, "overlap", "has not one row and one column for each scan", "");
@@ -81,7 +75,7 @@ bool Truth::pair_counts(std::size_t i, std::size_t j, double min_overlap) const 
 }
 
 Truth read_truth(const std::filesystem::path& path) {
-  const Json json = parse(path);
+  const Json json = read_json_file(path);
   try {
     return truth_from(json, path);
   } catch (const Json::exception& e) {

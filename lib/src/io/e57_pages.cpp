@@ -39,9 +39,28 @@ std::uint32_t big_endian(const std::byte* bytes) {
   return value;
 }
 
+#if defined(__x86_64__)
+/// By the instruction that most processors have for this very sum.
+__attribute__((target("sse4.2"))) std::uint32_t crc32c_by_instruction(const std::byte* bytes, std::size_t n) {
+  std::uint64_t sum = ~std::uint32_t{0};
+  for (; n >= 8; n -= 8, bytes += 8) sum = __builtin_ia32_crc32di(sum, load<std::uint64_t>(bytes));
+  auto rest = static_cast<std::uint32_t>(sum);
+  for (; n > 0; --n, ++bytes) rest = __builtin_ia32_crc32qi(rest, std::to_integer<std::uint8_t>(*bytes));
+  return ~rest;
+}
+#endif
+
 }  // namespace
 
 std::uint32_t crc32c(const std::byte* bytes, std::size_t n) {
+#if defined(__x86_64__)
+  static const bool has_instruction = __builtin_cpu_supports("sse4.2") != 0;
+  if (has_instruction) return crc32c_by_instruction(bytes, n);
+#endif
+  return crc32c_by_table(bytes, n);
+}
+
+std::uint32_t crc32c_by_table(const std::byte* bytes, std::size_t n) {
   static const Table table = make_table();
   std::uint32_t sum = ~std::uint32_t{0};
   for (; n >= 8; n -= 8, bytes += 8) {  // eight bytes a step: the sums must not cost more than the points
@@ -70,7 +89,8 @@ void E57Pages::read_header() {
   std::array<std::byte, kFileHeader> bytes;
   if (size_ < kFileHeader || stream_->read(bytes.data(), bytes.size()) != bytes.size() ||
       std::memcmp(bytes.data(), "ASTM-E57", 8) != 0) {
-    fail("byte 0", "is not an E57 file: it does not begin with 'ASTM-E57'");
+    throw InputError(path_, "byte 0", "is not an E57 file: it does not begin with 'ASTM-E57'",
+                     "give the file the extension of its format");
   }
   stream_at_ = kFileHeader;
   const auto major = load<std::uint32_t>(bytes.data() + 8);

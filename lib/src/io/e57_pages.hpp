@@ -51,4 +51,7 @@ class E57Pages {
 /// CRC-32C (Castagnoli), as iSCSI and E57 have it.
 std::uint32_t crc32c(const std::byte* bytes, std::size_t n);
 
+/// The same without the processor's help.
+std::uint32_t crc32c_by_table(const std::byte* bytes, std::size_t n);
+
 }  // namespace tcm_icp

@@ -26,6 +26,20 @@ std::uint64_t bits_at(const std::byte* bytes, std::uint64_t at, unsigned bits) {
   return bits == 64 ? value : value & ((std::uint64_t{1} << bits) - 1);
 }
 
+/// Integers of whole bytes: what most files have.
+template <typename T>
+void unpack_whole(const std::byte* from, double minimum, std::span<double> values) {
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] = minimum + load<T>(from + sizeof(T) * i);
+}
+
+/// Whether the values of a column are whole bytes of which each number is allowed, and exact as doubles.
+bool is_whole(const E57Field& field) {
+  const unsigned bits = field.bits();
+  constexpr std::int64_t kExact = std::int64_t{1} << 52U;
+  return (bits == 8 || bits == 16 || bits == 32) && field.range == (std::uint64_t{1} << bits) - 1 &&
+         field.minimum > -kExact && field.minimum < kExact;
+}
+
 }  // namespace
 
 E57Points::E57Points(E57Pages& pages, const E57Scan& scan, const std::vector<std::size_t>& wanted)
@@ -121,12 +135,19 @@ void E57Points::unpack(Column& column, std::span<double> values) {
       for (std::size_t i = 0; i < values.size(); ++i) values[i] = load<double>(from + 8 * i);
       break;
     default:
-      for (std::size_t i = 0; i < values.size(); ++i) {
-        const std::uint64_t raw = bits == 0 ? 0 : bits_at(bytes, column.bit + i * bits, bits);
-        values[i] =
-            raw > field.range
-                ? std::numeric_limits<double>::quiet_NaN()  // more than its column may hold: no value
-                : static_cast<double>(static_cast<std::int64_t>(static_cast<std::uint64_t>(field.minimum) + raw));
+      if (is_whole(field)) {
+        const auto minimum = static_cast<double>(field.minimum);
+        if (bits == 8) unpack_whole<std::uint8_t>(from, minimum, values);
+        if (bits == 16) unpack_whole<std::uint16_t>(from, minimum, values);
+        if (bits == 32) unpack_whole<std::uint32_t>(from, minimum, values);
+      } else {
+        for (std::size_t i = 0; i < values.size(); ++i) {
+          const std::uint64_t raw = bits == 0 ? 0 : bits_at(bytes, column.bit + i * bits, bits);
+          values[i] =
+              raw > field.range
+                  ? std::numeric_limits<double>::quiet_NaN()  // more than its column may hold: no value
+                  : static_cast<double>(static_cast<std::int64_t>(static_cast<std::uint64_t>(field.minimum) + raw));
+        }
       }
       if (field.kind == E57Field::Kind::kScaled) {
         for (double& value : values) value = field.scale * value + field.shift;

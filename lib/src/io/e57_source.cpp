@@ -4,9 +4,11 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "attribute_names.hpp"
+#include "e57_writer.hpp"
 #include "scalar.hpp"
 #include "tcm_icp/core/error.hpp"
 
@@ -27,7 +29,7 @@ std::string usual_name(const std::string& name) {
   for (const auto& [theirs, ours] : kUsual) {
     if (name == theirs) return ours;
   }
-  return attribute_name(name);
+  return attribute_name(name.starts_with(kE57Prefix) ? name.substr(std::string_view(kE57Prefix).size()) : name);
 }
 
 /// The smallest type that holds all values of a column.

@@ -1,9 +1,10 @@
 #include "las_header.hpp"
 
 #include <array>
-#include <cmath>
+#include <memory>
 #include <string_view>
 
+#include "byte_stream.hpp"
 #include "little_endian.hpp"
 #include "tcm_icp/core/error.hpp"
 
@@ -12,8 +13,10 @@ namespace {
 
 constexpr std::size_t kShortestHeader = 227, kHeader14 = 375;
 constexpr std::array<std::size_t, 11> kPointSizes{20, 28, 26, 34, 57, 63, 30, 36, 38, 59, 67};
-constexpr std::size_t kVlrHeader = 54, kExtraEntry = 192;
-constexpr std::uint16_t kExtraBytes = 4, kWellKnownText = 2112, kGeoKeys = 34735;  // of records
+constexpr std::size_t kVlrHeader = 54, kEvlrHeader = 60, kExtraEntry = 192;
+constexpr std::uint16_t kExtraBytesId = 4, kWellKnownTextId = 2112, kGeoKeysId = 34735;  // of records
+
+enum class RecordKind { kExtraBytes, kWellKnownText, kGeoKeys, kOther };
 
 class Parser {
  public:
@@ -21,7 +24,10 @@ class Parser {
 
   LasHeader parse() {
     const std::byte* const magic = input_.peek(4);
-    if (!magic || input_.head(4) != "LASF") fail("byte 0", "is not a LAS file: it does not begin with 'LASF'");
+    if (!magic || input_.head(4) != "LASF") {
+      throw InputError(input_.path(), "byte 0", "is not a LAS file: it does not begin with 'LASF'",
+                       "give the file the extension of its format");
+    }
     const std::byte* bytes = input_.peek(kShortestHeader);
     if (!bytes) fail("header", "ends within its header");
     const int minor = load<std::uint8_t>(bytes + 25);
@@ -45,10 +51,11 @@ class Parser {
     if (!header_.scale.allFinite() || !header_.offset.allFinite() || (header_.scale.array() == 0).any()) {
       fail("byte 131", "has no usable scale and offset of its coordinates");
     }
-    if (minor == 4) read_long_count();
+    if (minor == 4) read_long_fields();
     check_size();
-    input_.consume(header_size_);
+    if (!input_.skip(header_size_)) fail("header", "ends within its header");
     read_records();
+    read_records_behind();
     if (!input_.skip(first_point_ - input_.offset())) fail(input_.byte_place(), "ends before its first point");
     return std::move(header_);
   }
@@ -72,16 +79,19 @@ class Parser {
 
   [[noreturn]] void refuse_compressed() const {
     const std::string name = input_.path().filename().string();
-    const std::string las = input_.path().stem().string() + ".las";
+    std::string las = input_.path().stem().string() + ".las";
+    if (las == name) las = input_.path().stem().string() + "_unpacked.las";
     const bool copc = input_.head(kHeader14 + 6).ends_with("copc");
     throw InputError(input_.path(), "",
                      std::string("is compressed (") + (copc ? "COPC" : "LAZ") + "), which is not read",
                      "convert it: pdal translate " + name + " " + las + ", or laszip -i " + name + " -o " + las);
   }
 
-  void read_long_count() {
+  void read_long_fields() {
     const std::byte* const bytes = input_.peek(kHeader14);
     if (!bytes) fail("header", "ends within its header");
+    behind_ = load<std::uint64_t>(bytes + 235);
+    num_behind_ = load<std::uint32_t>(bytes + 243);
     const auto count = load<std::uint64_t>(bytes + 247);
     if (count != 0) header_.num_points = count;  // 0 where a program filled the old field only
   }
@@ -101,28 +111,65 @@ class Parser {
       if (first_point_ - input_.offset() < kVlrHeader) return;
       const std::byte* const bytes = input_.peek(kVlrHeader);
       if (!bytes) return;
-      const std::string_view user(reinterpret_cast<const char*>(bytes + 2), 16);
-      const auto id = load<std::uint16_t>(bytes + 18), length = load<std::uint16_t>(bytes + 20);
-      const std::string_view name = user.substr(0, user.find('\0'));
-      const bool is_extra = name == "LASF_Spec" && id == kExtraBytes;
-      const bool is_system = name == "LASF_Projection" && (id == kWellKnownText || id == kGeoKeys);
+      const RecordKind kind = kind_of(bytes);
+      const auto length = load<std::uint16_t>(bytes + 20);
       if (first_point_ - input_.offset() - kVlrHeader < length) return;
       input_.consume(kVlrHeader);
-      if (!is_extra && !is_system) {
+      if (kind == RecordKind::kOther) {
         if (!input_.skip(length)) return;
         continue;
       }
       const std::byte* const content = input_.peek(length);
       if (!content) return;
-      if (is_extra) {
-        for (std::size_t at = 0; at + kExtraEntry <= length; at += kExtraEntry) add_extra(content + at);
-      } else if (id == kWellKnownText) {
-        const std::string_view text(reinterpret_cast<const char*>(content), length);
-        header_.coordinate_system = text.substr(0, text.find('\0'));
-      } else if (header_.coordinate_system.empty()) {
-        header_.coordinate_system = epsg_code(content, length);
-      }
+      use(kind, content, length);
       input_.consume(length);
+    }
+  }
+
+  /// Records behind the points, which have the same head but for a longer length. What stands before the points holds.
+  /// A gzip'd file would have to be unpacked as a whole; they are left alone there.
+  void read_records_behind() {
+    if (num_behind_ == 0 || !input_.size()) return;
+    const std::unique_ptr<ByteStream> stream = open_bytes(input_.path());
+    const std::uint64_t size = *input_.size();
+    const bool had_extras = !header_.extras.empty(), had_system = !header_.coordinate_system.empty();
+    std::vector<std::byte> head(kEvlrHeader), content;
+    for (std::uint32_t i = 0; i < num_behind_; ++i) {
+      if (behind_ > size || size - behind_ < kEvlrHeader || !stream->seek(behind_)) return;
+      if (stream->read(head.data(), head.size()) != head.size()) return;
+      const RecordKind kind = kind_of(head.data());
+      const auto length = load<std::uint64_t>(head.data() + 20);
+      behind_ += kEvlrHeader;
+      if (length > size - behind_) return;
+      const bool is_known = kind == RecordKind::kExtraBytes ? had_extras : had_system;
+      if (kind != RecordKind::kOther && !is_known && length <= InputBuffer::kMaxLine) {
+        content.resize(static_cast<std::size_t>(length));
+        if (stream->read(content.data(), content.size()) != content.size()) return;
+        use(kind, content.data(), content.size());
+      }
+      behind_ += length;
+    }
+  }
+
+  /// @param head  of a record, up to its length
+  static RecordKind kind_of(const std::byte* head) {
+    const std::string_view user(reinterpret_cast<const char*>(head + 2), 16);
+    const std::string_view name = user.substr(0, user.find('\0'));
+    const auto id = load<std::uint16_t>(head + 18);
+    if (name == "LASF_Spec" && id == kExtraBytesId) return RecordKind::kExtraBytes;
+    if (name != "LASF_Projection") return RecordKind::kOther;
+    if (id == kWellKnownTextId) return RecordKind::kWellKnownText;
+    return id == kGeoKeysId ? RecordKind::kGeoKeys : RecordKind::kOther;
+  }
+
+  void use(RecordKind kind, const std::byte* content, std::size_t length) {
+    if (kind == RecordKind::kExtraBytes) {
+      for (std::size_t at = 0; at + kExtraEntry <= length; at += kExtraEntry) add_extra(content + at);
+    } else if (kind == RecordKind::kWellKnownText) {
+      const std::string_view text(reinterpret_cast<const char*>(content), length);
+      header_.coordinate_system = text.substr(0, text.find('\0'));
+    } else if (header_.coordinate_system.empty()) {
+      header_.coordinate_system = epsg_code(content, length);
     }
   }
 
@@ -171,6 +218,8 @@ class Parser {
   LasHeader header_;
   std::uint64_t header_size_ = 0, first_point_ = 0;
   std::uint32_t num_records_ = 0;
+  std::uint64_t behind_ = 0;  ///< [bytes] where the records behind the points begin
+  std::uint32_t num_behind_ = 0;
   std::size_t extra_offset_ = 0;  ///< [bytes] behind the point proper
 };
 

@@ -26,7 +26,7 @@ struct LasHeader {
   std::uint64_t num_points = 0;
   Eigen::Vector3d scale, offset;  ///< coordinates = scale * integers + offset
   std::vector<LasExtra> extras;
-  std::string coordinate_system;  ///< "EPSG:26917" or well-known text; empty where no record before the points names it
+  std::string coordinate_system;  ///< "EPSG:26917" or well-known text; empty where no record names it
 };
 
 /// Bytes of a point without its extra bytes. @pre format is 0..10

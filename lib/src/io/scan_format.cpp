@@ -1,5 +1,6 @@
 #include "scan_format.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cctype>
 #include <string_view>
@@ -56,6 +57,37 @@ bool begins_like_ply(std::string_view text) {
   return text.starts_with("ply\n") || text.starts_with("ply\r");
 }
 
+/// What is told of files that are no scan, but are often taken for one.
+struct NoScan {
+  std::string_view begins, problem, remedy;
+};
+constexpr const char* kUnpack = "unpack it, and name the scans in it";
+constexpr std::array<NoScan, 9> kNoScans{
+    {{"PK\x03\x04", "is a zip archive", kUnpack},
+     {"7z\xBC\xAF\x27\x1C", "is a 7z archive", kUnpack},
+     {"Rar!", "is a RAR archive", kUnpack},
+     {"BZh", "is packed by bzip2", kUnpack},
+     {"\xFD"
+      "7zXZ",
+      "is packed by xz", kUnpack},
+     {"\x28\xB5\x2F\xFD", "is packed by zstd", kUnpack},
+     {"version https://git-lfs", "only points to the data (Git LFS)", "fetch them: git lfs pull"},
+     {"<!DOCTYPE html", "is a web page", "download the scan again: the page may say what went wrong"},
+     {"<html", "is a web page", "download the scan again: the page may say what went wrong"}}};
+
+void refuse_what_is_no_scan(const InputBuffer& input, std::string_view head) {
+  for (const auto& [begins, problem, remedy] : kNoScans) {
+    if (head.starts_with(begins)) throw InputError(input.path(), "", std::string(problem), std::string(remedy));
+  }
+}
+
+/// Formats of scanners' own programs, which nobody else reads.
+bool belongs_to_a_scanner(std::string_view extension) {
+  constexpr std::array<std::string_view, 14> kOwn{".fls", ".fws",  ".lsproj", ".rcp", ".rcs", ".zfs", ".zfprj",
+                                                  ".rxp", ".rdbx", ".imp",    ".lgs", ".cl3", ".dp",  ".pcap"};
+  return std::find(kOwn.begin(), kOwn.end(), extension) != kOwn.end();
+}
+
 }  // namespace
 
 std::string extension_of(const std::filesystem::path& path) {
@@ -74,6 +106,7 @@ ScanFormat format_of(InputBuffer& input) {
   if (head.starts_with("LASF")) return ScanFormat::kLas;
   if (head.starts_with("ASTM-E57")) return ScanFormat::kE57;
   if (begins_like_pcd(head)) return ScanFormat::kPcd;
+  refuse_what_is_no_scan(input, head);
   const std::string extension = extension_of(input.path());
   for (const auto& [known, format] : kExtensions) {
     if (extension != known) continue;
@@ -81,6 +114,10 @@ ScanFormat format_of(InputBuffer& input) {
   }
   if (extension == ".bin") {
     throw InputError(input.path(), "", "may hold anything", "say what it is: --bin kitti or --bin nuscenes");
+  }
+  if (belongs_to_a_scanner(extension)) {
+    throw InputError(input.path(), "", "is of a scanner's own format ('" + extension + "')",
+                     "export the scans as E57, PTX or LAS from the program it belongs to");
   }
   throw InputError(input.path(), "",
                    "is of no known format: neither its first bytes nor its extension '" + extension + "' tell",

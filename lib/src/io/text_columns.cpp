@@ -75,4 +75,29 @@ bool has_decimal_commas(std::string_view line) {
   });
 }
 
+bool has_commas_for_both(std::string_view text) {
+  std::vector<std::string_view> fields;
+  bool has_leading_zero = false;  // of a fraction: whole numbers are not written so
+  while (!text.empty()) {
+    const std::size_t end = text.find('\n');
+    std::string_view line = trimmed(text.substr(0, end));
+    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+    if (line.ends_with('\r')) line.remove_suffix(1);
+    split_fields(line, ',', fields);
+    if (end == std::string_view::npos) break;  // perhaps cut off
+    if (fields.empty()) continue;
+    if (fields.size() < 6 || fields.size() % 2 != 0) return false;
+    for (std::size_t i = 0; i < fields.size(); ++i) {
+      const bool is_fraction = i % 2 == 1;
+      std::string_view digits = fields[i];
+      if (!is_fraction && digits.starts_with('-')) digits.remove_prefix(1);
+      if (digits.empty() || digits.find_first_not_of("0123456789") != std::string_view::npos) return false;
+      if (digits.size() < 2 || digits.front() != '0') continue;
+      if (!is_fraction) return false;
+      has_leading_zero = true;
+    }
+  }
+  return has_leading_zero;
+}
+
 }  // namespace tcm_icp

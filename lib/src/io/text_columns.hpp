@@ -24,4 +24,8 @@ std::vector<std::string> pts_names(std::size_t num_columns);
 /// a field: 1,5 2,5 3,5.
 bool has_decimal_commas(std::string_view line);
 
+/// True where commas seem to stand between columns and within numbers: 1,05,2,5,3,25. An even number of columns, six or
+/// more, all of digits, and every second one, but none of the others, somewhere begins with a 0 before other digits.
+bool has_commas_for_both(std::string_view text);
+
 }  // namespace tcm_icp

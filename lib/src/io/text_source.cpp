@@ -14,6 +14,8 @@
 namespace tcm_icp {
 namespace {
 
+constexpr std::size_t kLook = std::size_t{1} << 16U;  // [bytes] looked at ahead, to tell what columns are
+
 /// The delimiter of a line: a semicolon before a comma, because with decimal commas both stand in it.
 char delimiter_of(std::string_view line) {
   if (line.find(';') != std::string_view::npos) return ';';
@@ -107,6 +109,16 @@ void TextSource::take_first_record(std::string_view line) {
   num_columns_ = fields_.size();
   parse_record(line);
   has_pending_ = true;
+  if (delimiter_ == ',' && header_.empty()) refuse_commas_for_both(line);
+}
+
+void TextSource::refuse_commas_for_both(std::string_view first_line) {
+  std::string text(first_line);  // gone once more is looked at
+  text += '\n';
+  text += input_.head(kLook);
+  if (!has_commas_for_both(text)) return;
+  fail("has commas between columns and, as it seems, within numbers: 1,5 cannot be told from 1 and 5",
+       "export it with decimal points, or with semicolons between columns");
 }
 
 void TextSource::name_attributes() {
@@ -128,7 +140,6 @@ void TextSource::name_attributes() {
 
 /// Colours are bytes where all of the first points have whole numbers from 0 to 255, and not all just 0 and 1.
 void TextSource::find_byte_colours() {
-  constexpr std::size_t kLook = std::size_t{1} << 16U;
   std::vector<std::size_t> colours;
   for (std::size_t i = 0; i < attributes_.size(); ++i) {
     const std::string& name = attributes_[i].name;

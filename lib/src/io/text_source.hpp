@@ -27,6 +27,7 @@ class TextSource : public ScanSource {
   bool take_header(std::string_view line);
   bool take_count(std::string_view line);
   void take_first_record(std::string_view line);
+  void refuse_commas_for_both(std::string_view first_line);
   void name_attributes();
   bool next_content_line(std::string_view& line);
   bool begins_next_cloud(std::string_view line) const;

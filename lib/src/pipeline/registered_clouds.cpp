@@ -39,6 +39,8 @@ class CloudOutput {
     cloud_.format = options.format;
     cloud_.colour = options.colour;
     cloud_.reference = result.scans[result.reference].file;
+    for (const auto& pose : result.poses) cloud_.scan_names.push_back(pose.file);
+    if (options.format == CloudFormat::kE57) name_coordinate_system();
   }
 
   void write(std::uint64_t most_voxels) {
@@ -60,6 +62,26 @@ class CloudOutput {
   using Use = std::function<void(const PointBlock&)>;
 
   bool is_registered(std::size_t i) const { return result_.poses[i].status != ScanStatus::kUnregistered; }
+
+  /// The coordinates of the reference scan are those of the result: what its file says of them holds for both. E57 has
+  /// well-known text there, and no codes.
+  void name_coordinate_system() {
+    const ScanReader reader(paths_[result_.reference], ReadAttributes::kNo);
+    const std::string system = reader.coordinate_system();
+    if (system.find('[') == std::string::npos || result_.scans[result_.reference].unit != "m") return;
+    const Eigen::Isometry3d& T = result_.poses[result_.reference].T_reference_scan;
+    if (T.matrix() == Eigen::Matrix4d::Identity() && is_in_file_frame(reader)) cloud_.coordinate_system = system;
+  }
+
+  /// What an E57 file says of coordinates holds for points moved by the pose in its header.
+  static bool is_in_file_frame(const ScanReader& reader) {
+    try {
+      const auto pose = reader.header_pose();
+      return !pose || pose->matrix() == Eigen::Matrix4d::Identity();
+    } catch (const InputError&) {  // it is no rigid motion, and surely not the identity
+      return false;
+    }
+  }
 
   /// The raw points of a registered scan, without its outliers.
   void stream(std::size_t i, ReadAttributes read_attributes, const Use& use) const {

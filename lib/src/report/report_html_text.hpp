@@ -5,13 +5,12 @@
 #include <string_view>
 #include <vector>
 
+#include "core/xml_text.hpp"
 #include "report_parts.hpp"
 
 namespace tcm_icp::html {
 
-/// For the content of elements and for attributes in double quotes: & < > " ' as references; what is not UTF-8, and
-/// control characters, as U+FFFD.
-std::string escaped(std::string_view text);
+inline std::string escaped(std::string_view text) { return xml_escaped(text); }
 
 /// A file's name, set apart from the text around it, whatever direction its letters run in.
 std::string file_name(const Json& name);

@@ -15,9 +15,9 @@
 
 namespace tcm_icp {
 
-enum class CloudFormat { kPly, kLas, kPcd, kText };
+enum class CloudFormat { kPly, kLas, kPcd, kText, kE57 };
 
-/// ".ply", ".las", ".pcd", ".xyz".
+/// ".ply", ".las", ".pcd", ".xyz", ".e57".
 std::string_view extension_of(CloudFormat format);
 
 /// Whether a file of this format must be told before its first point how far its points reach.
@@ -39,12 +39,15 @@ struct RegisteredCloudOptions {
   double largest_step = std::numeric_limits<double>::infinity();
   /// LAS: what becomes 0 and 65535 in the field of that name where intensities are not its type.
   double least_intensity = 0, most_intensity = 65535;
+  std::vector<std::string> scan_names = {};  ///< E57: by scan index; "scan 1" where it is shorter
+  std::string coordinate_system = {};        ///< E57: well-known text of the reference scan's frame; empty: not told
 };
 
 /// Whether a PCD of these points has coordinates as doubles, which PCL does not take for its points.
 bool pcd_needs_doubles(const Eigen::AlignedBox3d& box, double largest_step);
 
 /// Writes x y z in the reference scan's frame, the scan's index, a colour, then the union of the inputs' attributes.
+/// In E57 each scan is one of the file instead, in its own frame with its pose and its own attributes and colour.
 /// Memory is that of a block. Until finish() the header says 0 points.
 class RegisteredCloudWriter {
  public:
@@ -60,7 +63,8 @@ class RegisteredCloudWriter {
   RegisteredCloudWriter& operator=(RegisteredCloudWriter&&) noexcept;
 
   /// Appends a block of raw points of one scan, moved by T_reference_scan; attributes nx ny nz are rotated. Attributes
-  /// the scan does not have are 0. A NaN or infinite attribute value becomes 0 and is counted.
+  /// the scan does not have are 0. A NaN or infinite attribute value becomes 0 and is counted. In E57 nothing is moved,
+  /// and a scan that comes again behind others is one more of the file ("name (2)").
   /// @throws InvalidInput  if the scan index, the attributes or the size of the block are not those announced, or a
   ///                       coordinate is not finite
   /// @throws OutputError   if the file cannot be written (disk full), or its format has no room for a value
@@ -76,6 +80,8 @@ class RegisteredCloudWriter {
 
  private:
   struct Impl;
+  struct OneCloud;
+  struct ScansWithPoses;
   std::unique_ptr<Impl> impl_;
 };
 

@@ -51,7 +51,7 @@ class ScanReader {
   std::optional<Eigen::Isometry3d> header_pose() const;
 
   /// What the file says of the coordinate system its points are in (LAS, E57): "EPSG:26917", well-known text, or what
-  /// else stands there. Results do not keep it. Empty where the file says nothing.
+  /// else stands there. Empty where the file says nothing.
   std::string coordinate_system() const;
 
  private:

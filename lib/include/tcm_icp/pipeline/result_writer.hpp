@@ -1,6 +1,6 @@
 #pragma once
-// The files of a result: poses.json, poses/, transforms/, registered.ply (or .las, .pcd, .xyz), scans/, report.json,
-// report.html.
+// The files of a result: poses.json, poses/, transforms/, registered.ply (or .las, .pcd, .xyz, .e57), scans/,
+// report.json, report.html.
 
 #include <filesystem>
 #include <string>

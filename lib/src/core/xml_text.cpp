@@ -1,9 +1,9 @@
+#include "core/xml_text.hpp"
+
 #include <cstddef>
 #include <cstdint>
 
-#include "report_html_text.hpp"
-
-namespace tcm_icp::html {
+namespace tcm_icp {
 namespace {
 
 constexpr std::string_view kReplacement = "\xEF\xBF\xBD";
@@ -39,7 +39,7 @@ bool printable(std::uint32_t code) {
 
 }  // namespace
 
-std::string escaped(std::string_view text) {
+std::string xml_escaped(std::string_view text) {
   std::string out;
   while (!text.empty()) {
     const Character c = decode(text);
@@ -63,4 +63,4 @@ std::string escaped(std::string_view text) {
   return out;
 }
 
-}  // namespace tcm_icp::html
+}  // namespace tcm_icp
