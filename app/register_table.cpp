@@ -27,7 +27,8 @@ std::string verdict_of(const ScanPose& pose) {
 
 // Nothing where the pose is not one of an adjustment; the reference is where it is by definition.
 const PoseUncertainty* uncertainty_of(const PipelineResult& result, std::size_t scan) {
-  if (result.uncertainty.poses.empty() || result.poses[scan].status != ScanStatus::kRegistered) return nullptr;
+  if (result.uncertainty.poses.empty() || result.poses[scan].status == ScanStatus::kUnregistered) return nullptr;
+  if (scan == result.reference && !result.survey.has_frame) return nullptr;
   return &result.uncertainty.poses[scan];
 }
 

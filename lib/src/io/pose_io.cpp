@@ -61,6 +61,11 @@ std::string json_scan(const ScanPose& scan) {
          (scan.unit == "m" ? "" : ", \"unit\": " + json_string(scan.unit)) + "}";
 }
 
+/// Nothing where there is no such text.
+std::string optional_field(std::string_view name, std::string_view text) {
+  return text.empty() ? "" : "\n " + json_string(name) + ": " + json_string(text) + ",";
+}
+
 void write_text(const std::filesystem::path& path, const std::string& text) {
   std::ofstream stream(path, std::ios::binary | std::ios::trunc);
   stream << text;
@@ -105,7 +110,8 @@ ScanPose read_scan(const nlohmann::json& entry, const std::filesystem::path& pat
 }  // namespace
 
 void write_pose_file(const std::filesystem::path& path, const PoseFile& poses) {
-  std::string text = "{\"schema\": 1, \"reference\": " + json_string(poses.reference) + ",\n \"scans\": [";
+  std::string text = "{\"schema\": 1, \"reference\": " + json_string(poses.reference) + "," +
+                     optional_field("frame", poses.frame) + optional_field("crs", poses.crs) + "\n \"scans\": [";
   for (std::size_t i = 0; i < poses.scans.size(); ++i) text += (i == 0 ? "\n" : ",\n") + json_scan(poses.scans[i]);
   write_text(path, text + "\n ]}\n");
 }
@@ -118,6 +124,8 @@ PoseFile read_pose_file(const std::filesystem::path& path) {
   }
   PoseFile poses;
   poses.reference = field_of<std::string>(document, "reference", path, "");
+  if (document.contains("frame")) poses.frame = field_of<std::string>(document, "frame", path, "");
+  if (document.contains("crs")) poses.crs = field_of<std::string>(document, "crs", path, "");
   for (std::size_t i = 0; i < scans.size(); ++i) {
     poses.scans.push_back(read_scan(scans[i], path, "scans[" + std::to_string(i) + "]"));
   }

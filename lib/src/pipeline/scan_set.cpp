@@ -46,6 +46,24 @@ std::size_t find_scan(const std::vector<std::filesystem::path>& paths, const std
   throw InvalidOptions("--reference " + name + ": the scans have the numbers 0 to " + std::to_string(paths.size() - 1));
 }
 
+void check_survey(const std::vector<std::filesystem::path>& paths, const InitialPoses& initial_poses,
+                  const Survey& survey, bool paper) {
+  if (survey.empty()) return;
+  if (paper) {
+    throw InvalidOptions(
+        "control points, positions of scanners and fixed scans need --profile robust: the published "
+        "method does not say how exact its poses are");
+  }
+  const std::vector<std::string> names = scan_names(paths);
+  for (const auto& fixed : survey.fixed) {
+    const auto at = std::find(names.begin(), names.end(), fixed);
+    if (at == names.end()) throw InvalidOptions("--fix " + fixed + ": no scan of that name");
+    if (initial_poses[static_cast<std::size_t>(at - names.begin())]) continue;
+    throw InvalidOptions("--fix " + fixed +
+                         ": the scan has no initial pose to stay at; give one in the file of --init");
+  }
+}
+
 void check_paths(const std::vector<std::filesystem::path>& paths, const InitialPoses& initial_poses) {
   if (initial_poses.size() != paths.size()) {
     throw InvalidOptions(std::to_string(initial_poses.size()) + " initial poses for " + std::to_string(paths.size()) +

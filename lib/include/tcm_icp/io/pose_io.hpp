@@ -25,6 +25,8 @@ struct ScanPose {
 struct PoseFile {
   std::string reference;  ///< file of the reference scan
   std::vector<ScanPose> scans;
+  std::string frame = {};  ///< what defines the common frame; empty: the reference scan
+  std::string crs = {};    ///< coordinate system of that frame, EPSG:n or well-known text; empty: not known
 };
 
 /// Numbers have 17 significant digits: reading gives the same bits. `pose` is null where a scan is unregistered. Bytes
