@@ -109,9 +109,12 @@ TEST_F(RegisterSurvey, PositionsWithHalfAMetreAreCoveredByWhatIsStated) {
     csv += town_name(i) + "," + numbers(given) + ",0.5\n";
   }
   folder_.write("gnss.csv", csv);
-  const RunResult result = run(Words{"register"} + kTown + Words{"--out", "out", "--gnss", "gnss.csv"} + kSmall);
+  const RunResult result =
+      run(Words{"register"} + kTown +
+          Words{"--out", "out", "--gnss", "gnss.csv", "--crs", "EPSG:25832", "--format", "las"} + kSmall);
   ASSERT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_NE(result.err.find("position of 003.ply contradicts the others"), std::string::npos) << result.err;
+  EXPECT_TRUE(ScanReader(folder() / "out/registered.las").coordinate_system().starts_with("PROJCS[\"ETRS89 / UTM"));
+  EXPECT_NE(result.err.find("the position of 003.ply contradicts the others"), std::string::npos) << result.err;
   const auto report = read_json(folder() / "out/report.json");
   const PoseFile poses = read_pose_file(folder() / "out/poses.json");
   EXPECT_EQ(poses.frame, "positions of scanners");

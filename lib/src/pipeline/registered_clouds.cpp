@@ -39,6 +39,9 @@ class CloudOutput {
     cloud_.format = options.format;
     cloud_.colour = options.colour;
     cloud_.reference = result.scans[result.reference].file;
+    if (!result.survey.has_frame) return;
+    cloud_.frame = result.survey.defined_by;
+    cloud_.crs = result.survey.crs;
   }
 
   void write(std::uint64_t most_voxels) {
@@ -50,6 +53,10 @@ class CloudOutput {
     merged.finish();
     warn_of_replaced(merged.num_replaced(), name);
     warn_of_replaced(num_replaced_in_scans_, "scans/");
+    if (options_.format == CloudFormat::kLas && !cloud_.crs.empty() && !las_names_crs(cloud_.crs)) {
+      context_.warn(name + " does not name the coordinate system " + cloud_.crs + ": LAS wants its well-known text, " +
+                    "which is known here of UTM zones alone; give a file with it to --crs");
+    }
     if (options_.format == CloudFormat::kPcd && pcd_needs_doubles(cloud_.box, cloud_.largest_step)) {
       context_.warn(name + " has its coordinates as doubles, which PCL does not read: floats would round them to " +
                     "more than a millionth of a scan; choose a --reference near the origin, or --format las");
