@@ -9,6 +9,7 @@
 #include "run_setup.hpp"
 #include "suggestion.hpp"
 #include "tcm_icp/core/error.hpp"
+#include "tcm_icp/io/pose_io.hpp"
 #include "tcm_icp/io/scan_path.hpp"
 #include "tcm_icp/survey/control_file.hpp"
 
@@ -67,6 +68,16 @@ std::string read_crs(const std::string& option) {
   throw InvalidOptions("--crs '" + option + "': give EPSG:n, well-known text, or a file that holds it (.wkt, .prj)");
 }
 
+/// Initial poses with standard deviations are observations; others are where searches may start.
+void add_priors(const RegisterOptions& o, const std::vector<std::string>& names, Survey& survey) {
+  if (o.initial_poses.empty() || o.initial_poses == kFromHeaders) return;
+  if (o.method != Method::kTcm || o.pipeline.profile != Profile::kRobust) return;
+  const auto sigmas = read_initial_sigmas(o.initial_poses, names);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (sigmas[i]) survey.priors.push_back({names[i], sigmas[i]->position_m, sigmas[i]->rotation_rad});
+  }
+}
+
 }  // namespace
 
 Survey read_survey(const RegisterOptions& options, const std::vector<std::filesystem::path>& scans) {
@@ -90,6 +101,7 @@ Survey read_survey(const RegisterOptions& options, const std::vector<std::filesy
     }
     if (!found) throw InvalidOptions("--fix " + fixed + ": no scan is called that" + did_you_mean(fixed, names));
   }
+  add_priors(options, names, survey);
   survey.sigma_level_rad = s.level_sigma_deg * std::numbers::pi / 180;
   if (!s.crs.empty()) survey.crs = read_crs(s.crs);
   return survey;

@@ -63,7 +63,7 @@ TEST_F(RegisterSurvey, TargetsGiveTheFrameAndTheirBlundersAreNamed) {
     if (k == 2) given += Eigen::Vector3d(0.03, -0.04, 0);
     if (k == 5) given += Eigen::Vector3d(0, 0, 0.05);
     for (const std::size_t i : {first, (first + 1) % 6, (first + 2) % 6}) {
-      csv += (is_check ? "C" : "T") + std::to_string(k) + "," + town_name(i) + "," +
+      csv += std::string(is_check ? "C" : "T") + std::to_string(k) + "," + town_name(i) + "," +
              numbers(pose(i).inverse() * place + noise(rng, kMeasured_m)) + "," + numbers(given) + ",0.001,0.003," +
              (is_check ? "check" : "control") + "\n";
     }
@@ -160,6 +160,71 @@ TEST_F(RegisterSurvey, FixedScansStayToTheBit) {
   }
   std::filesystem::remove_all(folder() / "out");
   expect_refusal(start + Words{"--fix", "000.ply"}, 1, {"--fix 000.ply", "no initial pose", "--init"});
+}
+
+TEST_F(RegisterSurvey, InitialPosesWithStandardDeviationsAreWeighedAndTheWrongOneNamed) {
+  std::string init = "{\"scans\": [";
+  for (std::size_t i = 0; i < 6; ++i) {
+    Eigen::Isometry3d T = pose(i);
+    if (i == 2) T.pretranslate(Eigen::Vector3d(0.4, 0, 0));
+    std::ostringstream text;
+    text << std::setprecision(17) << (i == 0 ? "" : ",") << "{\"file\": \"" << town_name(i)
+         << "\", \"sigma_position_m\": 0.05, \"sigma_rotation_deg\": 0.3, \"pose\": [";
+    for (int r = 0; r < 4; ++r) {
+      for (int c = 0; c < 4; ++c) text << (c == 0 ? (r == 0 ? "[" : ",[") : ",") << T.matrix()(r, c);
+      text << "]";
+    }
+    init += text.str() + "]}";
+  }
+  folder_.write("init.json", init + "]}");
+  const RunResult result = run(Words{"register"} + kTown + Words{"--out", "out", "--init", "init.json"} + kSmall);
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.err.find("initial pose of 002.ply contradicts"), std::string::npos) << result.err;
+  const PoseFile poses = read_pose_file(folder() / "out/poses.json");
+  EXPECT_EQ(poses.frame, "initial poses");
+  EXPECT_LT(frame_error_m(poses), 0.1);  // 0.4 m in one of six
+  EXPECT_EQ(score_town(poses).recall(), 1.0);
+}
+
+// Points on no surface: nothing fits them.
+std::string dust(double phase) {
+  std::string text;
+  for (int i = 0; i < 3000; ++i) {
+    text += std::to_string(std::sin(i + phase) * 5) + " " + std::to_string(std::cos(7.0 * i) * 5) + " " +
+            std::to_string(std::sin(3.0 * i * i + phase)) + "\n";
+  }
+  return text;
+}
+
+TEST_F(RegisterSurvey, AScanThatNoLinkHoldsFollowsItsOwnTargets) {
+  Rng rng = make_stream(3, "alone");
+  folder_.write("alone.xyz", dust(0));
+  folder_.write("lost.xyz", dust(1));
+  const Eigen::Isometry3d T_alone =
+      T_survey_world_ * Eigen::Translation3d(30, 0, 0) * Eigen::AngleAxisd(1, Eigen::Vector3d(1, 2, 3).normalized());
+  std::string csv = "name,scan,x,y,z,X,Y,Z,sigma\n";
+  for (int k = 0; k < 5; ++k) {
+    const std::string name = std::string("T") + std::to_string(k);
+    for (const auto& [scan, T] :
+         {std::pair{std::string("001.ply"), pose(1)}, std::pair{std::string("alone.xyz"), T_alone}}) {
+      const Eigen::Vector3d place = T * noise(rng, 6);
+      csv += scan[0] + name + "," + scan + "," + numbers(T.inverse() * place + noise(rng, 0.002)) + "," +
+             numbers(place + noise(rng, 0.002)) + ",0.003\n";
+    }
+  }
+  csv += "L,lost.xyz,1,2,3,512345,5412345,287,0.003\n";
+  folder_.write("control.csv", csv);
+  const RunResult result = run(Words{"register"} + town_scans({0, 1, 2}) +
+                               Words{"alone.xyz", "lost.xyz", "--out", "out", "--control", "control.csv"} + kSmall);
+  ASSERT_EQ(result.exit_code, 3) << result.err;
+  EXPECT_NE(result.err.find("control point L in lost.xyz was not used"), std::string::npos) << result.err;
+  const PoseFile poses = read_pose_file(folder() / "out/poses.json");
+  EXPECT_EQ(poses.scans[3].status, ScanStatus::kRegistered);
+  EXPECT_EQ(poses.scans[3].verdict, "accepted");
+  EXPECT_NE(poses.scans[3].reason.find("control points of its own alone"), std::string::npos);
+  EXPECT_LT(difference_m(poses.scans[3].T_reference_scan, T_alone, 5), 0.02);
+  EXPECT_EQ(poses.scans[4].status, ScanStatus::kUnregistered);
+  EXPECT_LT(difference_m(poses.scans[0].T_reference_scan, pose(0), 5), 0.03);
 }
 
 TEST_F(RegisterSurvey, WithoutControlOnItsScansTheFrameIsTheReferences) {

@@ -229,13 +229,13 @@ TEST(SurveyAdjustment, APlaceGivenWrongIsABlunderInEveryScan) {
 TEST(SurveyAdjustment, SaysWhichOfTwoMayBeTheBlunder) {
   Rng rng = make_stream(6, "survey");
   Scene scene(1, 0, rng);
+  scene.T_survey_local.linear().setIdentity();
   const Eigen::Vector3d corners[] = {{10, 0, 0}, {-10, 0, 0}, {0, 1, 0}, {0, -1, 0.5}};
   for (std::size_t k = 0; k < 4; ++k) {
-    scene.add("T" + std::to_string(k), 0, scene.true_pose(0) * corners[k], 0.001, 0.001, rng);
+    auto& point = scene.add("T" + std::to_string(k), 0, scene.true_pose(0) * corners[k], 0.001, 0.001, rng);
+    if (k >= 2) point.sigma_given_m.x() = 10;  // says nothing of places along the line of the other two
   }
-  // Along the line of the two far points: either may be wrong.
   scene.observations.points[0].measured += Eigen::Vector3d(0.1, 0, 0);
-  scene.observations.points[1].measured -= Eigen::Vector3d(0.1, 0, 0);
   const SurveySolution solution = adjust_to_survey(scene.network, scene.observations);
   ASSERT_EQ(solution.remarks.size(), 1U);
   EXPECT_NE(solution.remarks[0].find("instead the others would agree as well"), std::string::npos);
@@ -277,7 +277,7 @@ TEST(SurveyAdjustment, PointsOnALineLeaveOneRotation) {
 TEST(SurveyAdjustment, FixedScansStayAndOthersFollow) {
   Rng rng = make_stream(9, "survey");
   Scene scene(4, 0.005, rng);
-  for (const std::size_t i : {1U, 2U}) scene.observations.poses.push_back({i, scene.true_pose(i), 1e-7, 1e-6});
+  for (const std::size_t i : {1U, 2U}) scene.observations.poses.push_back({"s", i, scene.true_pose(i), 1e-7, 1e-6});
   const SurveySolution solution = adjust_to_survey(scene.network, scene.observations);
   EXPECT_TRUE(solution.is_determined());
   EXPECT_LT(error_m(scene, solution, 1), 1e-4);
@@ -285,6 +285,22 @@ TEST(SurveyAdjustment, FixedScansStayAndOthersFollow) {
   const Matrix6& free = solution.covariance[3];
   EXPECT_LT(solution.covariance[1].norm(), 1e-3 * free.norm());
   EXPECT_LT(error_m(scene, solution, 3), 6 * std::sqrt(free.trace() * 15 * 15));
+}
+
+TEST(SurveyAdjustment, NamesAKnownPoseThatContradictsTheLinks) {
+  Rng rng = make_stream(10, "survey");
+  Scene scene(4, 0.005, rng);
+  for (const std::size_t i : {0U, 1U, 2U}) {
+    scene.observations.poses.push_back({"scan " + std::to_string(i), i, scene.true_pose(i), 1e-4, 1e-3});
+  }
+  EXPECT_TRUE(adjust_to_survey(scene.network, scene.observations).remarks.empty());
+  scene.observations.poses[1].T_survey_scan.pretranslate(Eigen::Vector3d(0.3, 0, 0));
+  const SurveySolution solution = adjust_to_survey(scene.network, scene.observations);
+  ASSERT_FALSE(solution.remarks.empty());
+  bool is_named = false;
+  for (const auto& remark : solution.remarks)
+    is_named = is_named || remark.find("scan 1 contradicts") != std::string::npos;
+  EXPECT_TRUE(is_named);
 }
 
 TEST(SurveyAdjustment, LimitsOfChiSquaredAreThoseOfTables) {

@@ -60,7 +60,7 @@ class SurveyFrame {
       if (point.use == PointUse::kControl) return point.given.array().round();
     }
     for (std::size_t i = 0; i < in_.files.size(); ++i) {
-      if (is_fixed(i)) return (*T_init_[i] * scans_[i].moments.mean).array().round();
+      if (is_fixed(i) || prior_of(i) != nullptr) return (*T_init_[i] * scans_[i].moments.mean).array().round();
     }
     return Eigen::Vector3d::Zero();
   }
@@ -68,6 +68,13 @@ class SurveyFrame {
   bool is_fixed(std::size_t scan) const {
     const auto& fixed = in_.survey.fixed;
     return std::find(fixed.begin(), fixed.end(), in_.files[scan]) != fixed.end();
+  }
+
+  const PosePrior* prior_of(std::size_t scan) const {
+    const auto& priors = in_.survey.priors;
+    const auto at = std::find_if(priors.begin(), priors.end(),
+                                 [&](const PosePrior& prior) { return prior.scan == in_.files[scan]; });
+    return at == priors.end() ? nullptr : &*at;
   }
 
   // The frame is that of these scans, whatever their observations determine.
@@ -142,8 +149,11 @@ class SurveyFrame {
       const std::size_t i = members.scans[k];
       if (is_fixed(i)) {
         const double radius_m = std::sqrt(scans_[i].moments.covariance.trace());
-        out.poses.push_back({k, Eigen::Translation3d(-record_.origin) * *T_init_[i],
+        out.poses.push_back({in_.files[i], k, Eigen::Translation3d(-record_.origin) * *T_init_[i],
                              radius_m > 0 ? kFixedSigma_m / radius_m : kFixedSigma_m, kFixedSigma_m});
+      } else if (const PosePrior* const prior = prior_of(i)) {
+        out.poses.push_back({in_.files[i], k, Eigen::Translation3d(-record_.origin) * *T_init_[i],
+                             prior->sigma_rotation_rad, prior->sigma_position_m});
       }
       if (in_.survey.sigma_level_rad > 0) out.levels.push_back({k, in_.survey.sigma_level_rad});
     }
@@ -192,7 +202,12 @@ class SurveyFrame {
     };
     add(by_points, "control points");
     add(by_scanners, "positions of scanners");
-    add(!observed.poses.empty(), "fixed scans");
+    const bool by_fixed = std::any_of(observed.poses.begin(), observed.poses.end(),
+                                      [](const PoseObservation& p) { return p.sigma_position_m == kFixedSigma_m; });
+    const bool by_priors = std::any_of(observed.poses.begin(), observed.poses.end(),
+                                       [](const PoseObservation& p) { return p.sigma_position_m != kFixedSigma_m; });
+    add(by_fixed, "fixed scans");
+    add(by_priors, "initial poses");
   }
 
   void take(const Members& members, const ScanNetwork& network, const SurveySolution& solution) {
@@ -204,7 +219,7 @@ class SurveyFrame {
                               Eigen::Translation3d(-in_.sampled[i].scan.origin);
       if (is_fixed(i)) out_.T_survey_scan[i] = in_.initial_poses[i];
       out_.is_confirmed[i] =
-          members.settled != nullptr || (!is_fixed(i) && solution.degrees_of_freedom > 0 &&
+          members.settled != nullptr || (!is_fixed(i) && prior_of(i) == nullptr && solution.degrees_of_freedom > 0 &&
                                          solution.chi_squared <= chi_squared_limit(solution.degrees_of_freedom));
       PoseUncertainty& pose = uncertainty[i];
       pose.centre = solution.T_survey_local * network.frames[k].centre;

@@ -263,6 +263,29 @@ class SurveyAdjustment {
     return out;
   }
 
+  /// How far the others put a scan from its known pose, where that is more than chance; 0 otherwise.
+  double contradiction_m(const Fit& f, std::size_t pose) const {
+    constexpr int kUnknowns = 6;
+    Eigen::Index row = 0;
+    for (const bool is_used : used_) row += is_used ? 3 : 0;
+    row += kUnknowns * static_cast<Eigen::Index>(pose);
+    const Matrix6 weight = f.P.block<6, 6>(row, row), most = f.S_inverse.block<6, 6>(row, row);
+    const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix6> axes((weight + weight.transpose()) / 2,
+                                                                 (most + most.transpose()) / 2);
+    Twist off = Twist::Zero();
+    double test = 0;
+    int directions = 0;
+    for (int k = 0; k < kUnknowns; ++k) {
+      const double checked = axes.eigenvalues()[k];
+      if (!(checked > kLeastChecked)) continue;
+      const double pull = axes.eigenvectors().col(k).dot(f.u.segment<6>(row));
+      test += pull * pull / checked;
+      off += pull / checked * axes.eigenvectors().col(k);
+      ++directions;
+    }
+    return directions > 0 && test > chi_squared_limit(directions) ? off.norm() : 0;
+  }
+
   void say(const std::string& remark) { out_.remarks.push_back(remark); }
 
   void remark(const Fit& f) {
@@ -272,6 +295,14 @@ class SurveyAdjustment {
       say("the observations determine " + std::to_string(f.num_rotations()) +
           " of three rotations of the frame, about the other axes it turns as little as can be; at least three points "
           "that are not on one line are needed");
+    }
+    for (std::size_t k = 0; k < in_.poses.size(); ++k) {
+      const double off_m = contradiction_m(f, k);
+      if (!(off_m > 0)) continue;
+      char length[32];
+      std::snprintf(length, sizeof length, "%.3g", off_m);
+      say("the initial pose of " + in_.poses[k].name + " contradicts links and other observations: these put it " +
+          std::string(length) + " m from there");
     }
     if (f.degrees_of_freedom() == 0) {
       say("nothing is redundant: no observation is checked by the others");

@@ -36,6 +36,7 @@ struct PointObservation {
 
 /// A scan whose pose is known.
 struct PoseObservation {
+  std::string name;  ///< of the scan, for remarks
   std::size_t scan = 0;
   Eigen::Isometry3d T_survey_scan = Eigen::Isometry3d::Identity();
   double sigma_rotation_rad = 0, sigma_position_m = 0;  ///< > 0; the position is that of the frame's centre

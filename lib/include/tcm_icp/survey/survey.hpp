@@ -24,15 +24,22 @@ struct ControlPoint {
   bool is_scanner = false;  ///< from a list of scanners' positions
 };
 
+/// An initial pose that is known by so much.
+struct PosePrior {
+  std::string scan;
+  double sigma_position_m = 0, sigma_rotation_rad = 0;  ///< > 0, the same about and along all axes
+};
+
 /// Empty where the common frame is that of the reference scan.
 struct Survey {
   std::vector<ControlPoint> points;  ///< those of one name share their given coordinates
   std::vector<std::string> fixed;    ///< names of scans that stay where their initial poses put them
+  std::vector<PosePrior> priors;     ///< of scans whose initial poses have a weight
   /// [rad] standard deviation of each scan's z axis from the vertical, about x and about y; 0: not known to be upright
   double sigma_level_rad = 0;
   std::string crs;  ///< of the survey frame, as text for files; empty: not known
 
-  bool empty() const { return points.empty() && fixed.empty(); }
+  bool empty() const { return points.empty() && fixed.empty() && priors.empty(); }
 };
 
 }  // namespace tcm_icp
