@@ -14,6 +14,8 @@ namespace {
 
 Eigen::Vector3d normal3(Rng& rng) { return {standard_normal(rng), standard_normal(rng), standard_normal(rng)}; }
 
+std::string target(std::size_t k) { return std::string("T").append(std::to_string(k)); }
+
 Eigen::Isometry3d random_pose(Rng& rng, double reach_m) {
   Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
   T.linear() =
@@ -83,7 +85,7 @@ TEST(SurveyAdjustment, ExactPointsGiveTheFrame) {
   Scene scene(4, 0, rng);
   for (std::size_t k = 0; k < 5; ++k) {
     const std::size_t scan = k % 4;
-    scene.add("T" + std::to_string(k), scan, scene.place_near(scan, rng), 1e-12, 0, rng);
+    scene.add(target(k), scan, scene.place_near(scan, rng), 1e-12, 0, rng);
   }
   const SurveySolution solution = adjust_to_survey(scene.network, scene.observations);
   ASSERT_GT(scene.T_survey_local.translation().norm(), 10);
@@ -98,7 +100,7 @@ TEST(SurveyAdjustment, AgreesWithLeastSquaresInAllUnknowns) {
   Scene scene(3, 0.004, rng);
   for (std::size_t k = 0; k < 6; ++k) {
     const std::size_t scan = k % 3;
-    scene.add("T" + std::to_string(k), scan, scene.place_near(scan, rng), 0.003, 0.002, rng);
+    scene.add(target(k), scan, scene.place_near(scan, rng), 0.003, 0.002, rng);
   }
   const Eigen::Vector3d shared = scene.place_near(1, rng);
   scene.add("shared", 0, shared, 0.003, 0.002, rng);
@@ -161,7 +163,7 @@ TEST(SurveyAdjustment, StatesHowFarOffItIs) {
     Rng rng = make_stream(static_cast<std::uint64_t>(run), "covered");
     Scene scene(5, 0.01, rng);
     for (std::size_t k = 0; k < 5; ++k) {
-      scene.add("T" + std::to_string(k), k, scene.place_near(k, rng), 0.02, 0.005, rng);
+      scene.add(target(k), k, scene.place_near(k, rng), 0.02, 0.005, rng);
     }
     const SurveySolution solution = adjust_to_survey(scene.network, scene.observations);
     const std::size_t scan = 1 + static_cast<std::size_t>(run % 4);
@@ -183,7 +185,7 @@ TEST(SurveyAdjustment, NamesTwoBlundersOfFiveCentimetresAmongEight) {
     Rng rng = make_stream(static_cast<std::uint64_t>(run), "blunders");
     Scene scene(4, 0.001, rng);
     for (std::size_t k = 0; k < 8; ++k) {
-      scene.add("T" + std::to_string(k), k % 4, scene.place_near(k % 4, rng), 0.002, 0.002, rng);
+      scene.add(target(k), k % 4, scene.place_near(k % 4, rng), 0.002, 0.002, rng);
     }
     scene.observations.points[2].given += Eigen::Vector3d(0.04, -0.03, 0);
     scene.observations.points[5].measured += Eigen::Vector3d(0, 0.03, 0.04);
@@ -210,7 +212,7 @@ TEST(SurveyAdjustment, APlaceGivenWrongIsABlunderInEveryScan) {
   for (std::size_t k = 0; k < 6; ++k) {
     const Eigen::Vector3d place = scene.place_near(k % 4, rng);
     for (const std::size_t scan : {k % 4, (k + 1) % 4}) {
-      scene.add("T" + std::to_string(k), scan, place, 0.002, 0.002, rng);
+      scene.add(target(k), scan, place, 0.002, 0.002, rng);
     }
   }
   for (auto& point : scene.observations.points) {
@@ -232,7 +234,7 @@ TEST(SurveyAdjustment, SaysWhichOfTwoMayBeTheBlunder) {
   scene.T_survey_local.linear().setIdentity();
   const Eigen::Vector3d corners[] = {{10, 0, 0}, {-10, 0, 0}, {0, 1, 0}, {0, -1, 0.5}};
   for (std::size_t k = 0; k < 4; ++k) {
-    auto& point = scene.add("T" + std::to_string(k), 0, scene.true_pose(0) * corners[k], 0.001, 0.001, rng);
+    auto& point = scene.add(target(k), 0, scene.true_pose(0) * corners[k], 0.001, 0.001, rng);
     if (k >= 2) point.sigma_given_m.x() = 10;  // says nothing of places along the line of the other two
   }
   scene.observations.points[0].measured += Eigen::Vector3d(0.1, 0, 0);
@@ -259,7 +261,8 @@ TEST(SurveyAdjustment, PointsOnALineLeaveOneRotation) {
   Rng rng = make_stream(8, "survey");
   Scene scene(1, 0, rng);
   const Eigen::Vector3d start = scene.place_near(0, rng), along = normal3(rng).normalized();
-  for (int k = 0; k < 4; ++k) scene.add("T" + std::to_string(k), 0, start + 8 * k * along, 0.001, 0.001, rng);
+  for (std::size_t k = 0; k < 4; ++k)
+    scene.add(target(k), 0, start + 8.0 * static_cast<double>(k) * along, 0.001, 0.001, rng);
   const SurveySolution line = adjust_to_survey(scene.network, scene.observations);
   EXPECT_EQ(line.num_rotations, 2);
   for (const auto& point : line.points) EXPECT_LT(point.residual_m.norm(), 0.01);

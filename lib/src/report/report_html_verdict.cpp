@@ -34,8 +34,10 @@ std::string remarks(const Json& report) {
   if (!survey.is_null()) {
     for (const auto& point : survey.at("points")) {
       if (point.at("status") != "blunder") continue;
-      remark("Control point " + file_name(point.at("name")) + " in " + file_name(point.at("scan")) +
-             " contradicts the others and was left out.");
+      const std::string what = point.at("kind") == "scanner" ? "The position of " + file_name(point.at("scan"))
+                                                             : "Control point " + file_name(point.at("name")) + " in " +
+                                                                   file_name(point.at("scan"));
+      remark(what + " contradicts the others and was left out.");
     }
     for (const auto& text : survey.at("remarks")) remark(sentence(text));
   }
