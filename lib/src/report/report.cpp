@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <utility>
 
 #include "report_parts.hpp"
 
@@ -186,7 +187,7 @@ Json report_object(const PipelineResult& result, const PipelineOptions& options,
   report["merges"] = Json::array();
   for (const auto& m : result.merges) report["merges"].push_back(to_json(m, result));
   report["adjustment"] = adjustment_json(result);
-  report["survey"] = survey_json(result.survey);
+  if (Json survey = survey_json(result.survey); !survey.is_null()) report["survey"] = std::move(survey);
   report["links"] = Json::array();
   for (const auto& l : result.links) {
     report["links"].push_back({{"a", result.scans[l.a].file},

@@ -294,7 +294,7 @@ class SurveyAdjustment {
     } else if (f.num_rotations() < 3) {
       say("the observations determine " + std::to_string(f.num_rotations()) +
           " of three rotations of the frame, about the other axes it turns as little as can be; at least three points "
-          "that are not on one line are needed");
+          "that are not on one line are needed, or scans that are level");
     }
     for (std::size_t k = 0; k < in_.poses.size(); ++k) {
       const double off_m = contradiction_m(f, k);
