@@ -123,7 +123,7 @@ int cmd_inspect(const Arguments& arguments) {
   Console console(o.quiet, o.verbose);
   const RunContext context = run_context(o, console);
   report_left_out(inputs, context);
-  report_coordinate_systems(paths, context);
+  report_coordinate_systems(paths, "which results do not keep", context);
   const Inspection inspection = inspect_scans(paths, guess, o.pipeline, context);
   console.finish();
   if (o.json) {

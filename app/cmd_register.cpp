@@ -8,6 +8,8 @@
 #include "register_options.hpp"
 #include "register_table.hpp"
 #include "run_setup.hpp"
+#include "survey_setup.hpp"
+#include "survey_table.hpp"
 #include "tcm_icp/core/error.hpp"
 #include "tcm_icp/pipeline/pair_pipeline.hpp"
 #include "tcm_icp/pipeline/pipeline.hpp"
@@ -33,8 +35,8 @@ void check_usage(const RegisterOptions& o) {
 }
 
 PipelineResult run_method(const RegisterOptions& o, const std::vector<std::filesystem::path>& paths,
-                          const InitialPoses& guess, const RunContext& context) {
-  if (o.method == Method::kTcm) return Pipeline(o.pipeline).run(paths, guess, context);
+                          const InitialPoses& guess, const Survey& survey, const RunContext& context) {
+  if (o.method == Method::kTcm) return Pipeline(o.pipeline).run(paths, guess, context, survey);
   return register_by_pairs(paths, guess, o.pipeline, context, name_of(o.method), pair_method(o.method));
 }
 
@@ -58,20 +60,22 @@ int cmd_register(const Arguments& arguments) {
   check_number(paths.size());
   check_output_folder(o.out, o.force);
   const InitialPoses guess = read_guess(o, paths);
+  Survey survey = read_survey(o, paths);
 
   catch_interrupts();
   Console console(o.quiet, o.verbose);
   const RunContext context = run_context(o, console);
   report_left_out(inputs, context);
-  report_coordinate_systems(paths, context);
+  settle_coordinate_system(o, paths, context, survey);
 
-  PipelineResult result = run_method(o, paths, guess, context);
+  PipelineResult result = run_method(o, paths, guess, survey, context);
   write_result(o.out, o.force, paths, result, o.pipeline, o.clouds, context,
                {kVersion, command_line("register", arguments), o.initial_poses, started});
   console.finish();
   if (!o.quiet) {
     const bool verified = o.method == Method::kTcm && o.pipeline.profile == Profile::kRobust;
     print_register_table(result, terminal_width(), std::cerr);
+    print_survey_table(result.survey, terminal_width(), std::cerr);
     std::cerr << register_summary(result, verified, std::filesystem::path(o.out) / "report.html") << '\n';
   }
   return result.all_registered() ? kSuccess : kSomeUnregistered;

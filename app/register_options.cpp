@@ -169,6 +169,19 @@ po::options_description sampling_options(PipelineOptions& p) {
   return sampling;
 }
 
+po::options_description survey_options(SurveyOptions& o) {
+  po::options_description survey("Survey frame, in place of the reference scan's");
+  survey.add_options()("control", value(o.control),
+                       "CSV of control points: name, scan, measured x, y, z, given X, Y, Z, sigma; blunders are named")(
+      "gnss", value(o.positions), "CSV of scanners' positions: scan, X, Y, Z, sigma")(
+      "fix", po::value(&o.fixed), "keep this scan where --init puts it; may be given many times")(
+      "crs", value(o.crs),
+      "coordinate system of that frame, for the files written: EPSG:n, well-known text or a file of it")(
+      "level-sigma", value(o.level_sigma_deg),
+      "[deg] scans are upright with this standard deviation, in the adjustment; 0: they need not be");
+  return survey;
+}
+
 po::options_description cloud_options(OutputOptions& o, Choices& c) {
   po::options_description clouds("Clouds written");
   clouds.add_options()("format", value(c.format),
@@ -182,9 +195,10 @@ po::options_description cloud_options(OutputOptions& o, Choices& c) {
 }
 
 // What `register --help` shows: what to write, how to run, and what most sets of scans may need.
-constexpr std::array kUsedMost{"out",  "force",     "config", "format",  "each",       "init",     "bin",
-                               "unit", "reference", "level",  "profile", "confidence", "outliers", "method",
-                               "seed", "threads",   "quiet",  "verbose", "help",       "help-all"};
+constexpr std::array kUsedMost{"out",       "force",   "config",  "format",     "each",     "init",
+                               "bin",       "unit",    "control", "gnss",       "fix",      "crs",
+                               "reference", "level",   "profile", "confidence", "outliers", "method",
+                               "seed",      "threads", "quiet",   "verbose",    "help",     "help-all"};
 
 // Options that may stand in a file, too.
 po::options_description configurable(RegisterOptions& o, Choices& c) {
@@ -222,7 +236,11 @@ po::options_description configurable(RegisterOptions& o, Choices& c) {
       "the same, at the end; cooling is geometric")("adjustment.lp-steps", value(p.adjustment.lp_steps),
                                                     "joint linear programs over all poses; 0: none")(
       "adjustment.steps", value(p.adjustment.steps), "most joint least-squares steps of all poses after them; 0: none");
-  main.add(cloud_options(o.clouds, c)).add(outlier_options(p, c)).add(sampling_options(p)).add(placement);
+  main.add(survey_options(o.survey))
+      .add(cloud_options(o.clouds, c))
+      .add(outlier_options(p, c))
+      .add(sampling_options(p))
+      .add(placement);
   return main;
 }
 
@@ -384,8 +402,9 @@ void print_register_config(const RegisterOptions& options, std::ostream& out) {
   po::store(po::command_line_parser(Arguments{}).options(description).run(), map);
   out << "# tcm-icp register --config FILE\n" << std::setprecision(std::numeric_limits<double>::max_digits10);
   for (const auto& unit : o.units) out << "unit = " << unit << '\n';
+  for (const auto& fixed : o.survey.fixed) out << "fix = " << fixed << '\n';
   for (const auto& option : description.options()) {
-    if (option->long_name() == "unit") continue;  // as many as were given, or none
+    if (option->long_name() == "unit" || option->long_name() == "fix") continue;  // as many as were given, or none
     const boost::any& v = map[option->long_name()].value();
     out << option->long_name() << " = ";
     if (const auto* text = boost::any_cast<std::string>(&v)) out << *text;

@@ -27,7 +27,8 @@ std::string verdict_of(const ScanPose& pose) {
 
 // Nothing where the pose is not one of an adjustment; the reference is where it is by definition.
 const PoseUncertainty* uncertainty_of(const PipelineResult& result, std::size_t scan) {
-  if (result.uncertainty.poses.empty() || result.poses[scan].status != ScanStatus::kRegistered) return nullptr;
+  if (result.uncertainty.poses.empty() || result.poses[scan].status == ScanStatus::kUnregistered) return nullptr;
+  if (scan == result.reference && !result.survey.has_frame) return nullptr;
   return &result.uncertainty.poses[scan];
 }
 
@@ -87,7 +88,8 @@ std::vector<std::string> figures(const PipelineResult& result, std::size_t scan)
     cells[2] = text("%.3g", kMmPerM * evidence->median_residual_m);
   }
   if (const PoseUncertainty* pose = uncertainty_of(result, scan)) {
-    cells[3] = pose->determined ? text("%.2g", kMmPerM * sigma_position_m(*pose)) : "unknown";
+    const double sigma_mm = kMmPerM * sigma_position_m(*pose);
+    cells[3] = pose->determined ? text(sigma_mm < 100 ? "%.2g" : "%.0f", sigma_mm) : "unknown";
     cells[4] = pose->determined ? text("%.2g", kDegPerRad * sigma_rotation_rad(*pose)) : "unknown";
   }
   return cells;

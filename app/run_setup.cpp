@@ -13,7 +13,8 @@
 
 namespace tcm_icp::app {
 
-void report_coordinate_systems(const std::vector<std::filesystem::path>& scans, const RunContext& context) {
+std::string report_coordinate_systems(const std::vector<std::filesystem::path>& scans, const std::string& what,
+                                      const RunContext& context) {
   constexpr std::size_t kMostShown = 60;                 // well-known text fills a page
   std::map<std::string, std::filesystem::path> systems;  // each with the first scan in it
   for (const auto& scan : scans) {
@@ -26,9 +27,10 @@ void report_coordinate_systems(const std::vector<std::filesystem::path>& scans, 
     if (systems.size() > 1) {
       context.warn(text + "; others are in another: are all in one unit?");
     } else {
-      context.info(text + ", which results do not keep");
+      context.info(text + ", " + what);
     }
   }
+  return systems.size() == 1 ? systems.begin()->first : "";
 }
 
 BinLayout parse_bin(const std::string& text) {
@@ -47,13 +49,13 @@ LengthUnit parse_unit(const std::string& option, const std::string& name) {
                        did_you_mean(name, {"m", "mm", "ft", "us-ft"}));
 }
 
+}  // namespace
+
 bool is_called(const std::string& name, const std::filesystem::path& scan, const std::string& scan_name,
                std::size_t number) {
   const std::filesystem::path file = parse_scan_path(scan).file;
   return name == scan_name || name == scan || name == file || name == file.filename() || name == std::to_string(number);
 }
-
-}  // namespace
 
 std::vector<std::filesystem::path> with_units(const std::vector<std::filesystem::path>& scans,
                                               const std::vector<std::string>& units) {

@@ -17,8 +17,15 @@ namespace tcm_icp::app {
 /// Warns of the files in folders that were left out.
 void report_left_out(const ScanInputs& inputs, const RunContext& context);
 
-/// Says that coordinate systems, which LAS and E57 files may name, are not kept, and warns where they differ.
-void report_coordinate_systems(const std::vector<std::filesystem::path>& scans, const RunContext& context);
+/// Says which coordinate system the scans are in, where LAS and E57 files name one, and `what` becomes of it; warns
+/// where they name different ones.
+/// @return  the only one that is named; empty where there is none, or are several
+std::string report_coordinate_systems(const std::vector<std::filesystem::path>& scans, const std::string& what,
+                                      const RunContext& context);
+
+/// Whether `name` stands for this scan on the command line: its name, number, path, or the file it is in.
+bool is_called(const std::string& name, const std::filesystem::path& scan, const std::string& scan_name,
+               std::size_t number);
 
 /// The option --bin. @throws InvalidOptions
 BinLayout parse_bin(const std::string& text);

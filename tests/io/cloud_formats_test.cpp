@@ -313,6 +313,31 @@ TEST(CloudFormats, WhatALasFileHasComesBackAsItWas) {
   EXPECT_EQ(attribute_of<std::uint16_t>(scan, 0, "nir"), 12345);
 }
 
+TEST(CloudFormats, LasAndPlyNameTheCoordinateSystem) {
+  const TempFolder folder;
+  RegisteredCloudOptions options = in_format(CloudFormat::kLas);
+  options.crs = "EPSG:32733";
+  options.frame = "control points";
+  const WholeScan scan = written_and_read(folder, options);
+  EXPECT_LT(worst_distance(scan, to_utm()), 1e-6);  // points are where the header says, behind both records
+  const std::string text = ScanReader(folder.path() / "out.las").coordinate_system();
+  EXPECT_TRUE(text.starts_with("PROJCS[\"WGS 84 / UTM zone 33S\",GEOGCS[\"WGS 84\"")) << text;
+  EXPECT_NE(text.find("PARAMETER[\"central_meridian\",15]"), std::string::npos) << text;
+  EXPECT_NE(text.find("PARAMETER[\"false_northing\",10000000]"), std::string::npos) << text;
+  EXPECT_EQ(std::count(text.begin(), text.end(), '['), std::count(text.begin(), text.end(), ']'));
+  EXPECT_FALSE(las_names_crs("EPSG:31467"));
+  EXPECT_FALSE(las_names_crs("EPSG:25899"));
+  EXPECT_FALSE(las_names_crs(""));
+  options.crs = "LOCAL_CS[\"site\"]";
+  written_and_read(folder, options);
+  EXPECT_EQ(ScanReader(folder.path() / "out.las").coordinate_system(), options.crs);
+  options.format = CloudFormat::kPly;
+  written_and_read(folder, options);
+  const std::string ply = read_text(folder.path() / "out.ply");
+  EXPECT_NE(ply.find("comment frame: survey frame by control points\ncomment coordinate system: LOCAL_CS"),
+            std::string::npos);
+}
+
 TEST(CloudFormats, LasRefusesWhatItHasNoRoomFor) {
   const TempFolder folder;
   const auto path = folder.path() / "out.las";

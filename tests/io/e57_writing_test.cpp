@@ -199,7 +199,7 @@ TEST(E57Writing, HeaderPagesSectionsAndPacketsAreAsTheStandardHasThem) {
 TEST(E57Writing, PrototypeAndLimitsSayWhatTheNumbersAre) {
   const TempFolder folder;
   RegisteredCloudOptions options = e57_options();
-  options.coordinate_system = "PROJCS[\"a & b\",\n  UNIT[\"metre\",1]]";
+  options.crs = "PROJCS[\"a & b\",\n  UNIT[\"metre\",1]]";
   const std::string bytes = payload_of(read_text(write_two(folder, 300, options)));
   pugi::xml_document document;
   ASSERT_TRUE(

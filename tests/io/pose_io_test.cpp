@@ -201,5 +201,36 @@ TEST(PoseIo, ATransformIsFourLinesOfFullPrecision) {
   EXPECT_FALSE(std::getline(text, line));
 }
 
+TEST(PoseIo, TheFrameAndItsCoordinateSystemComeBack) {
+  const test::TempFolder folder;
+  const auto path = folder.path() / "poses.json";
+  PoseFile written = some_poses();
+  write_pose_file(path, written);
+  EXPECT_EQ(test::read_text(path).find("frame"), std::string::npos);
+  written.frame = "control points";
+  written.crs = "PROJCS[\"somewhere\"]";
+  write_pose_file(path, written);
+  EXPECT_EQ(read_pose_file(path).frame, written.frame);
+  EXPECT_EQ(read_pose_file(path).crs, written.crs);
+}
+
+TEST(PoseIo, InitialPosesMayHaveStandardDeviations) {
+  const test::TempFolder folder;
+  const std::string pose = "\"pose\": [[1,0,0,1],[0,1,0,2],[0,0,1,3],[0,0,0,1]]";
+  const auto read = [&](const std::string& fields) {
+    const auto path = folder.write("init.json", "{\"scans\": [{\"file\": \"a.ply\"" + fields + "}]}");
+    return read_initial_sigmas(path, {"b.ply", "a.ply"});
+  };
+  const auto sigmas = read(", \"sigma_position_m\": 0.5, \"sigma_rotation_deg\": 90, " + pose);
+  EXPECT_FALSE(sigmas[0].has_value());
+  EXPECT_EQ(sigmas[1]->position_m, 0.5);
+  EXPECT_NEAR(sigmas[1]->rotation_rad, std::acos(0.0), 1e-15);
+  EXPECT_FALSE(read(", " + pose)[1].has_value());
+  EXPECT_THROW(read(", \"sigma_position_m\": 0.5, " + pose), InputError);
+  EXPECT_THROW(read(", \"sigma_position_m\": 0, \"sigma_rotation_deg\": 1, " + pose), InputError);
+  EXPECT_THROW(read(", \"sigma_position_m\": \"1\", \"sigma_rotation_deg\": 1, " + pose), InputError);
+  EXPECT_THROW(read(", \"sigma_position_m\": 1, \"sigma_rotation_deg\": 1"), InputError);
+}
+
 }  // namespace
 }  // namespace tcm_icp

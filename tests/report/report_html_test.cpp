@@ -131,6 +131,49 @@ TEST(ReportHtml, DrawsEachGroupInItsOwnFrame) {
   EXPECT_TRUE(has(page, "Group 1, in a frame of its own"));
 }
 
+// A control point used, a blunder, and one whose scan is nowhere, with names that are markup.
+PipelineResult surveyed() {
+  PipelineResult result = three_of_four();
+  SurveyRecord& survey = result.survey;
+  survey.has_frame = true;
+  survey.defined_by = "control points";
+  survey.crs = "PROJCS[\"a <b> & c\"]";
+  survey.num_rotations = 2;
+  survey.remarks = {"determined <little>"};
+  for (const PointStatus status : {PointStatus::kUsed, PointStatus::kBlunder, PointStatus::kNotRegistered}) {
+    PointResidual point;
+    point.point.name = "T<" + std::to_string(survey.points.size()) + ">";
+    point.point.scan = kNames[survey.points.size()];
+    point.status = status;
+    if (status != PointStatus::kNotRegistered) point.residual_m = point.sigma_m = {0.001, -0.002, 0.0531};
+    survey.points.push_back(point);
+  }
+  result.uncertainty.poses[0] = result.uncertainty.poses[1];
+  return result;
+}
+
+TEST(ReportHtml, ListsControlPointsAndNamesBlunders) {
+  const std::string page = report_html(report_of(surveyed()));
+  EXPECT_EQ(testing::markup_error(page), "");
+  for (const char* const text : {"Survey frame", "T&lt;1&gt;", "contradicts the others", "53.1", "not registered",
+                                 "PROJCS[&quot;a &lt;b&gt; &amp; c&quot;]", "determined &lt;little&gt;"}) {
+    EXPECT_NE(page.find(text), std::string::npos) << text;
+  }
+  EXPECT_FALSE(std::regex_search(page, std::regex("[^a-z](nan|inf|null)[^a-z]", std::regex::icase)));
+  const std::string plain = report_html(report_of(three_of_four()));
+  EXPECT_EQ(plain.find("Survey frame"), std::string::npos);
+}
+
+TEST(ReportJson, SurveyIsThereWhereAskedForAndKnowsNoNaN) {
+  EXPECT_FALSE(report_of(three_of_four()).contains("survey"));
+  const Json survey = report_of(surveyed()).at("survey");
+  EXPECT_EQ(survey.at("points").at(1).at("status"), "blunder");
+  EXPECT_EQ(survey.at("points").at(1).at("residual_m").at(2), 0.0531);
+  EXPECT_TRUE(survey.at("points").at(2).at("residual_m").is_null());
+  EXPECT_TRUE(survey.at("points").at(0).at("test").is_null());
+  EXPECT_TRUE(survey.at("variance_factor").is_null());
+}
+
 TEST(ReportJson, IsJsonWhateverTheFilesAreCalled) {
   const PipelineResult result = three_of_four();
   const Json read = Json::parse(report_json(result, {}, {}, {}));

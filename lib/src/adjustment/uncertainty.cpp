@@ -19,4 +19,15 @@ void measure_uncertainty(const std::vector<PreparedScan>& scans, const ScanPairs
   });
 }
 
+Eigen::MatrixXd joint_covariance(const std::vector<PreparedScan>& scans, const ScanPairs& pairs, std::size_t reference,
+                                 const Resolutions& resolutions, const std::vector<Eigen::Isometry3d>& T_reference_scan,
+                                 int num_threads) {
+  const std::vector<JointLink> matches =
+      match_pairs(scans, pairs, T_reference_scan, kGateInVoxels * resolutions.fine_m, num_threads);
+  PoseCovarianceOptions options;
+  options.smallest_block_m = resolutions.fine_m;
+  options.keeps_joint = true;
+  return estimate_uncertainty(scan_frames(scans, T_reference_scan), reference, matches, options).joint_covariance_m2;
+}
+
 }  // namespace tcm_icp

@@ -16,4 +16,10 @@ void measure_uncertainty(const std::vector<PreparedScan>& scans, const ScanPairs
                          const Resolutions& resolutions, const std::vector<Eigen::Isometry3d>& T_reference_scan,
                          int num_threads, JointUncertainty& uncertainty, std::vector<LinkRecord>& links);
 
+/// Covariance [m^2] of the steps of all scans together about scan_frames(), 6 n x 6 n: zero for the reference, very
+/// large for what the matches do not determine.
+Eigen::MatrixXd joint_covariance(const std::vector<PreparedScan>& scans, const ScanPairs& pairs, std::size_t reference,
+                                 const Resolutions& resolutions, const std::vector<Eigen::Isometry3d>& T_reference_scan,
+                                 int num_threads);
+
 }  // namespace tcm_icp

@@ -15,11 +15,13 @@
 #include "little_endian.hpp"
 #include "scalar.hpp"
 #include "tcm_icp/core/error.hpp"
+#include "well_known_text.hpp"
 
 namespace tcm_icp {
 namespace {
 
 constexpr std::size_t kHeaderSize = 375, kRecordHeader = 54, kExtraEntry = 192, kMostExtras = 65535 / kExtraEntry;
+constexpr std::uint16_t kExtraBytes = 4, kWellKnownText = 2112;           // by which records are called
 constexpr std::size_t kIntensityAt = 12, kSourceAt = 20, kColourAt = 30;  // in a point
 constexpr const char* kRemedy = "use --format ply";
 
@@ -82,8 +84,12 @@ class LasSink : public CloudSink {
                         kRemedy);
     }
     lay_out();
+    if (las_names_crs(options.crs)) {
+      add_record("LASF_Projection", kWellKnownText, "well-known text", *well_known_text(options.crs) + '\0');
+    }
+    if (!extras_.empty()) add_record("LASF_Spec", kExtraBytes, "extra bytes", extra_bytes());
     put(header(0));
-    put(extra_bytes_record());
+    put(records_);
   }
 
   void write(const std::byte* records, std::size_t count) override {
@@ -225,16 +231,14 @@ class LasSink : public CloudSink {
     std::string bytes(kHeaderSize, '\0');
     const auto set = [&](std::size_t at, const auto& value) { std::memcpy(bytes.data() + at, &value, sizeof value); };
     bytes.replace(0, 4, "LASF");
-    set(6, std::uint16_t{16});  // coordinate systems would be given as well-known text, as formats from 6 on ask for
+    set(6, std::uint16_t{16});  // coordinate systems are given as well-known text, as formats from 6 on ask for
     set(24, std::uint8_t{1});
     set(25, std::uint8_t{4});
     bytes.replace(26, 14, "TRANSFORMATION");
     bytes.replace(58, 7, "tcm-icp");
     set(94, static_cast<std::uint16_t>(kHeaderSize));
-    const bool has_record = !extras_.empty();
-    const std::size_t records = has_record ? kRecordHeader + kExtraEntry * extras_.size() : 0;
-    set(96, static_cast<std::uint32_t>(kHeaderSize + records));
-    set(100, static_cast<std::uint32_t>(has_record ? 1 : 0));
+    set(96, static_cast<std::uint32_t>(kHeaderSize + records_.size()));
+    set(100, num_records_);
     set(104, static_cast<std::uint8_t>(point_format_));
     set(105, static_cast<std::uint16_t>(point_size_));
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -250,15 +254,21 @@ class LasSink : public CloudSink {
     return bytes;
   }
 
+  /// A variable length record. @pre the content has at most 65,535 bytes
+  void add_record(std::string_view user, std::uint16_t id, std::string_view what, const std::string& content) {
+    std::string head(kRecordHeader, '\0');
+    std::copy(user.begin(), user.end(), head.begin() + 2);
+    const auto length = static_cast<std::uint16_t>(content.size());
+    std::memcpy(head.data() + 18, &id, sizeof id);
+    std::memcpy(head.data() + 20, &length, sizeof length);
+    std::copy(what.begin(), what.end(), head.begin() + 22);
+    records_ += head + content;
+    ++num_records_;
+  }
+
   /// What the bytes behind each point are.
-  std::string extra_bytes_record() const {
-    if (extras_.empty()) return {};
-    std::string record(kRecordHeader, '\0');
-    record.replace(2, 9, "LASF_Spec");
-    const std::uint16_t id = 4, length = static_cast<std::uint16_t>(kExtraEntry * extras_.size());
-    std::memcpy(record.data() + 18, &id, sizeof id);
-    std::memcpy(record.data() + 20, &length, sizeof length);
-    record.replace(22, 11, "extra bytes");
+  std::string extra_bytes() const {
+    std::string record;
     for (const Attribute& extra : extras_) {
       std::string entry(kExtraEntry, '\0');
       entry[2] = static_cast<char>(extra_type(extra.type));
@@ -280,6 +290,8 @@ class LasSink : public CloudSink {
   LasScale scale_;
   std::vector<Copy> copies_;
   std::vector<Attribute> extras_;
+  std::string records_;  ///< between header and points
+  std::uint32_t num_records_ = 0;
   int point_format_ = 7;
   std::size_t point_size_ = 0;  ///< [bytes]
   bool has_nir_ = false, has_returns_ = false, has_source_ = false;
@@ -289,6 +301,11 @@ class LasSink : public CloudSink {
 };
 
 }  // namespace
+
+bool las_names_crs(const std::string& crs) {
+  const auto text = well_known_text(crs);
+  return text && text->size() < std::numeric_limits<std::uint16_t>::max();
+}
 
 std::unique_ptr<CloudSink> open_las(std::filesystem::path path, const RecordLayout& layout,
                                     const RegisteredCloudOptions& options) {

@@ -14,8 +14,12 @@ std::string one_line(std::string text) {
   return text;
 }
 
-std::string comments(const RecordLayout& layout, const std::string& reference) {
-  std::string text = "comment frame: that of the scan " + one_line(reference) + '\n';
+std::string comments(const RecordLayout& layout, const RegisteredCloudOptions& options) {
+  std::string text =
+      "comment frame: " +
+      one_line(options.frame.empty() ? "that of the scan " + options.reference : "survey frame by " + options.frame) +
+      '\n';
+  if (!options.crs.empty()) text += "comment coordinate system: " + one_line(options.crs) + '\n';
   const std::string colour = layout.colour_is_by_scan ? "colour by scan" : "colour of the input";
   if (layout.has_scan) text += "comment scan: index of the input file, from 0; red green blue: " + colour + '\n';
   return text;
@@ -23,10 +27,10 @@ std::string comments(const RecordLayout& layout, const std::string& reference) {
 
 class PlySink : public CloudSink {
  public:
-  PlySink(std::filesystem::path path, const RecordLayout& layout, const std::string& reference)
+  PlySink(std::filesystem::path path, const RecordLayout& layout, const RegisteredCloudOptions& options)
       : CloudSink(std::move(path)), record_size_(layout.size) {
     const std::string start =
-        "ply\nformat binary_little_endian 1.0\ncomment made by tcm-icp\n" + comments(layout, reference);
+        "ply\nformat binary_little_endian 1.0\ncomment made by tcm-icp\n" + comments(layout, options);
     count_position_ = start.size();
     put(start + count(0));
     for (const auto& column : layout.columns) {
@@ -53,7 +57,7 @@ class PlySink : public CloudSink {
 
 std::unique_ptr<CloudSink> open_ply(std::filesystem::path path, const RecordLayout& layout,
                                     const RegisteredCloudOptions& options) {
-  return std::make_unique<PlySink>(std::move(path), layout, options.reference);
+  return std::make_unique<PlySink>(std::move(path), layout, options);
 }
 
 }  // namespace tcm_icp

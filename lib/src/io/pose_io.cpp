@@ -5,6 +5,7 @@
 #include <charconv>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <string_view>
 
 #include "pose_json.hpp"
@@ -61,6 +62,11 @@ std::string json_scan(const ScanPose& scan) {
          (scan.unit == "m" ? "" : ", \"unit\": " + json_string(scan.unit)) + "}";
 }
 
+/// Nothing where there is no such text.
+std::string optional_field(std::string_view name, std::string_view text) {
+  return text.empty() ? "" : "\n " + json_string(name) + ": " + json_string(text) + ",";
+}
+
 void write_text(const std::filesystem::path& path, const std::string& text) {
   std::ofstream stream(path, std::ios::binary | std::ios::trunc);
   stream << text;
@@ -105,7 +111,8 @@ ScanPose read_scan(const nlohmann::json& entry, const std::filesystem::path& pat
 }  // namespace
 
 void write_pose_file(const std::filesystem::path& path, const PoseFile& poses) {
-  std::string text = "{\"schema\": 1, \"reference\": " + json_string(poses.reference) + ",\n \"scans\": [";
+  std::string text = "{\"schema\": 1, \"reference\": " + json_string(poses.reference) + "," +
+                     optional_field("frame", poses.frame) + optional_field("crs", poses.crs) + "\n \"scans\": [";
   for (std::size_t i = 0; i < poses.scans.size(); ++i) text += (i == 0 ? "\n" : ",\n") + json_scan(poses.scans[i]);
   write_text(path, text + "\n ]}\n");
 }
@@ -118,6 +125,8 @@ PoseFile read_pose_file(const std::filesystem::path& path) {
   }
   PoseFile poses;
   poses.reference = field_of<std::string>(document, "reference", path, "");
+  if (document.contains("frame")) poses.frame = field_of<std::string>(document, "frame", path, "");
+  if (document.contains("crs")) poses.crs = field_of<std::string>(document, "crs", path, "");
   for (std::size_t i = 0; i < scans.size(); ++i) {
     poses.scans.push_back(read_scan(scans[i], path, "scans[" + std::to_string(i) + "]"));
   }
@@ -140,6 +149,36 @@ std::vector<std::optional<Eigen::Isometry3d>> read_initial_poses(const std::file
     poses[static_cast<std::size_t>(at - files.begin())] = pose_of(scans[i], "pose", path, place);
   }
   return poses;
+}
+
+std::vector<std::optional<PoseSigmas>> read_initial_sigmas(const std::filesystem::path& path,
+                                                           const std::vector<std::string>& files) {
+  constexpr const char *kPosition = "sigma_position_m", *kRotation = "sigma_rotation_deg";
+  const nlohmann::json document = read_json_file(path);
+  const auto& scans = scans_of(document, path);
+  std::vector<std::optional<PoseSigmas>> out(files.size());
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    const nlohmann::json& entry = scans[i];
+    if (!entry.contains(kPosition) && !entry.contains(kRotation)) continue;
+    const std::string place = "scans[" + std::to_string(i) + "]";
+    const auto at = std::find(files.begin(), files.end(), std::string(entry["file"]));
+    if (at == files.end() || !pose_of(entry, "pose", path, place)) {
+      throw InputError(path, place, "has standard deviations, but no pose of a scan",
+                       "give its pose, or leave them out");
+    }
+    for (const char* const key : {kPosition, kRotation}) {
+      if (entry.contains(key) && entry[key].is_number()) continue;
+      throw InputError(path, place, std::string("has no number '") + key + "'",
+                       "give both standard deviations, or none");
+    }
+    const PoseSigmas sigmas{entry[kPosition].get<double>(), entry[kRotation].get<double>() * std::numbers::pi / 180};
+    if (!(sigmas.position_m > 0 && sigmas.rotation_rad > 0)) {
+      throw InputError(path, place, "has a standard deviation that is not above 0",
+                       "use --fix for a pose that is exact");
+    }
+    out[static_cast<std::size_t>(at - files.begin())] = sigmas;
+  }
+  return out;
 }
 
 void write_transform(const std::filesystem::path& path, const Eigen::Isometry3d& T) {

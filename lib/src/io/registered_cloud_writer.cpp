@@ -8,6 +8,7 @@
 #include "e57_writer.hpp"
 #include "merged_record.hpp"
 #include "tcm_icp/core/error.hpp"
+#include "well_known_text.hpp"
 
 namespace tcm_icp {
 
@@ -106,7 +107,9 @@ struct RegisteredCloudWriter::ScansWithPoses : RegisteredCloudWriter::Impl {
   }
 
   void finish() override {
-    writer.finish("registered by tcm-icp; pose in the frame of " + options.reference, options.coordinate_system);
+    writer.finish(
+        "registered by tcm-icp; pose in the frame of " + (options.frame.empty() ? options.reference : options.frame),
+        well_known_text(options.crs).value_or(""));
   }
   std::uint64_t num_replaced() const override { return replaced_before + (record ? record->num_replaced() : 0); }
 

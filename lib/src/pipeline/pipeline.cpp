@@ -19,7 +19,7 @@ bool PipelineResult::all_registered() const {
 Pipeline::Pipeline(PipelineOptions options) : options_(std::move(options)) { options_.validate(); }
 
 PipelineResult Pipeline::run(const std::vector<std::filesystem::path>& paths, const InitialPoses& initial_poses,
-                             const RunContext& context) const {
+                             const RunContext& context, const Survey& survey) const {
   if (paths.size() < 2) {
     throw InvalidOptions("registration needs at least two scans, not " + std::to_string(paths.size()) +
                          "; name the files of all scans");
@@ -27,6 +27,7 @@ PipelineResult Pipeline::run(const std::vector<std::filesystem::path>& paths, co
   check_paths(paths, initial_poses);
   const std::size_t named = options_.reference.empty() ? 0 : find_scan(paths, options_.reference);
   const bool paper = options_.profile == Profile::kPaper;
+  check_survey(paths, initial_poses, survey, paper);
   const PipelineOptions& options = options_;
   PipelineResult result;
   StageClock clock(result.stages);
@@ -46,7 +47,8 @@ PipelineResult Pipeline::run(const std::vector<std::filesystem::path>& paths, co
   result.warnings = warn_of_units(result.scans, context);
   const InitialPoses guesses = in_order(initial_poses, order);
   result.reference = static_cast<std::size_t>(std::find(order.begin(), order.end(), named) - order.begin());
-  (paper ? run_paper_pipeline : run_robust_pipeline)({sampled, files, guesses, options, context, clock}, result);
+  (paper ? run_paper_pipeline : run_robust_pipeline)({sampled, files, guesses, survey, options, context, clock},
+                                                     result);
   clock.end();
   restore_order(order, result);
   for (std::size_t i = 0; i < paths.size(); ++i) result.poses[i].unit = result.scans[i].unit;

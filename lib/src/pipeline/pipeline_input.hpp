@@ -16,6 +16,7 @@ struct PipelineInput {
   std::vector<SampledScan>& sampled;  ///< working clouds are given up on the way
   const std::vector<std::string>& files;
   const InitialPoses& initial_poses;  ///< for raw coordinates
+  const Survey& survey;
   const PipelineOptions& options;
   const RunContext& context;
   StageClock& clock;

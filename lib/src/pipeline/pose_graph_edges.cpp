@@ -46,9 +46,8 @@ std::vector<PoseGraphEdge> pose_graph_edges(const PipelineResult& result) {
     if (link.verdict != "accepted" || !is_registered(link.a) || !is_registered(link.b)) continue;
     PoseGraphEdge edge{link.a, link.b};
     if (link.strength) {
-      // Strengths are in the reference's local frame.
       Eigen::Isometry3d T_local_to = result.poses[link.b].T_reference_scan;
-      T_local_to.pretranslate(-result.scans[result.reference].origin);
+      T_local_to.pretranslate(-result.local_origin());
       if (const auto information = edge_information(*link.strength, T_local_to)) edge.information = *information;
     }
     edges.push_back(edge);

@@ -40,7 +40,12 @@ class CloudOutput {
     cloud_.colour = options.colour;
     cloud_.reference = result.scans[result.reference].file;
     for (const auto& pose : result.poses) cloud_.scan_names.push_back(pose.file);
-    if (options.format == CloudFormat::kE57) name_coordinate_system();
+    if (result.survey.has_frame) {
+      cloud_.frame = result.survey.defined_by;
+      cloud_.crs = result.survey.crs;
+    } else if (options.format == CloudFormat::kE57) {
+      name_coordinate_system();
+    }
   }
 
   void write(std::uint64_t most_voxels) {
@@ -52,6 +57,11 @@ class CloudOutput {
     merged.finish();
     warn_of_replaced(merged.num_replaced(), name);
     warn_of_replaced(num_replaced_in_scans_, "scans/");
+    const bool wants_text = options_.format == CloudFormat::kLas || options_.format == CloudFormat::kE57;
+    if (wants_text && !cloud_.crs.empty() && !las_names_crs(cloud_.crs)) {
+      context_.warn(name + " does not name the coordinate system " + cloud_.crs + ": the format wants its " +
+                    "well-known text, which is known here of UTM zones alone; give a file with it to --crs");
+    }
     if (options_.format == CloudFormat::kPcd && pcd_needs_doubles(cloud_.box, cloud_.largest_step)) {
       context_.warn(name + " has its coordinates as doubles, which PCL does not read: floats would round them to " +
                     "more than a millionth of a scan; choose a --reference near the origin, or --format las");
@@ -70,7 +80,7 @@ class CloudOutput {
     const std::string system = reader.coordinate_system();
     if (system.find('[') == std::string::npos || result_.scans[result_.reference].unit != "m") return;
     const Eigen::Isometry3d& T = result_.poses[result_.reference].T_reference_scan;
-    if (T.matrix() == Eigen::Matrix4d::Identity() && is_in_file_frame(reader)) cloud_.coordinate_system = system;
+    if (T.matrix() == Eigen::Matrix4d::Identity() && is_in_file_frame(reader)) cloud_.crs = system;
   }
 
   /// What an E57 file says of coordinates holds for points moved by the pose in its header.

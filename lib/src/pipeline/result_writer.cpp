@@ -46,7 +46,9 @@ void write_result(const fs::path& folder, bool overwrite, const std::vector<fs::
   StageClock clock(result.stages);
   clock.begin("write");
   write_registered_clouds(output.work(), paths, result, clouds, context);
-  write_pose_file(output.work() / "poses.json", {result.scans[result.reference].file, result.poses});
+  write_pose_file(output.work() / "poses.json",
+                  {result.scans[result.reference].file, result.poses, result.survey.defined_by,
+                   result.survey.has_frame ? result.survey.crs : ""});
   fs::create_directory(output.work() / "transforms");
   for (const auto& pose : result.poses) {
     if (pose.status == ScanStatus::kUnregistered) continue;

@@ -15,6 +15,7 @@
 #include "pipeline/pipeline_input.hpp"
 #include "pipeline/scan_set.hpp"
 #include "pipeline/settled_component.hpp"
+#include "pipeline/survey_frame.hpp"
 #include "scans/scan_sight.hpp"
 #include "tcm_icp/core/rigid_transform.hpp"
 #include "tcm_icp/core/statistics.hpp"
@@ -40,6 +41,7 @@ class RobustPipeline {
     compare_pairs();
     build_components();
     choose_main_component();
+    if (!in_.survey.empty()) placement_ = fit_to_survey(in_, scans_, resolutions_, settled_, result_);
     report_poses();
     report_hypotheses();
   }
@@ -218,6 +220,7 @@ class RobustPipeline {
         if (decision.reason == Reason::kNotDecided) decision.reason = Reason::kNoLink;
         pose.verdict = "rejected";
         pose.component = next_component++;
+        take_survey_pose(i, pose);
         result_.poses.push_back(std::move(pose));
         continue;
       }
@@ -243,8 +246,20 @@ class RobustPipeline {
                           ? "the reference of a group that does not hold together with the others"
                           : "belongs to the group of " + in_.files[component.reference] + ": " + pose.reason;
       }
+      take_survey_pose(i, pose);
       result_.poses.push_back(std::move(pose));
     }
+  }
+
+  // Scans that no link ties to the reference may be in the survey frame by themselves.
+  void take_survey_pose(std::size_t scan, ScanPose& pose) const {
+    if (placement_.T_survey_scan.empty() || !placement_.T_survey_scan[scan]) return;
+    pose.T_reference_scan = *placement_.T_survey_scan[scan];
+    if (pose.status != ScanStatus::kUnregistered) return;
+    pose.status = ScanStatus::kRegistered;
+    pose.verdict = placement_.is_confirmed[scan] ? "accepted" : "doubtful";
+    pose.pose_in_component.reset();
+    pose.reason = "in the survey frame by " + result_.survey.defined_by + " of its own alone (" + pose.reason + ")";
   }
 
   // What the final poses contradict is named.
@@ -286,6 +301,7 @@ class RobustPipeline {
   std::vector<PreparedScan> scans_;
   std::optional<HypothesisSet> hypotheses_;
   std::vector<SettledComponent> settled_;
+  SurveyPlacement placement_;
 };
 
 }  // namespace

@@ -46,6 +46,34 @@ std::size_t find_scan(const std::vector<std::filesystem::path>& paths, const std
   throw InvalidOptions("--reference " + name + ": the scans have the numbers 0 to " + std::to_string(paths.size() - 1));
 }
 
+void check_survey(const std::vector<std::filesystem::path>& paths, const InitialPoses& initial_poses,
+                  const Survey& survey, bool paper) {
+  if (survey.empty()) return;
+  if (paper) {
+    throw InvalidOptions(
+        "control points, positions of scanners and fixed scans need --profile robust: the published "
+        "method does not say how exact its poses are");
+  }
+  const std::vector<std::string> names = scan_names(paths);
+  const auto has_initial_pose = [&](const std::string& name) {
+    const auto at = std::find(names.begin(), names.end(), name);
+    if (at == names.end()) throw InvalidOptions("the survey frame names '" + name + "', which is none of the scans");
+    return initial_poses[static_cast<std::size_t>(at - names.begin())].has_value();
+  };
+  for (const auto& point : survey.points) {
+    if (!point.scan.empty()) has_initial_pose(point.scan);
+  }
+  for (const auto& fixed : survey.fixed) {
+    if (has_initial_pose(fixed)) continue;
+    throw InvalidOptions("--fix " + fixed +
+                         ": the scan has no initial pose to stay at; give one in the file of --init");
+  }
+  for (const auto& prior : survey.priors) {
+    const bool is_valid = has_initial_pose(prior.scan) && prior.sigma_position_m > 0 && prior.sigma_rotation_rad > 0;
+    if (!is_valid) throw InvalidOptions("the initial pose of " + prior.scan + " has no standard deviation, or is none");
+  }
+}
+
 void check_paths(const std::vector<std::filesystem::path>& paths, const InitialPoses& initial_poses) {
   if (initial_poses.size() != paths.size()) {
     throw InvalidOptions(std::to_string(initial_poses.size()) + " initial poses for " + std::to_string(paths.size()) +

@@ -21,6 +21,11 @@ std::size_t find_scan(const std::vector<std::filesystem::path>& paths, const std
 /// @throws InvalidOptions  another number of initial poses than of files
 void check_paths(const std::vector<std::filesystem::path>& paths, const InitialPoses& initial_poses);
 
+/// @throws InvalidOptions  a scan that there is none of, one that is fixed or weighed without an initial pose; a survey
+/// frame in the paper's profile
+void check_survey(const std::vector<std::filesystem::path>& paths, const InitialPoses& initial_poses,
+                  const Survey& survey, bool paper);
+
 /// sample_scan() for each file, as many at once as there are threads. Reports "reading".
 /// @throws InputError, InvalidInput, Cancelled
 std::vector<SampledScan> read_scans(const std::vector<std::filesystem::path>& paths, const PipelineOptions& options,

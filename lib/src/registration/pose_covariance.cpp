@@ -110,7 +110,7 @@ JointUncertainty estimate_uncertainty(const std::vector<TwistFrame>& frames, std
   const double count = blocks_of_scan(best);
   const double scale = count > 6 ? count / (count - 6) * out.disagreement_factor * out.disagreement_factor
                                  : std::numeric_limits<double>::infinity();
-  const Eigen::MatrixXd covariance = scale * sandwich.covariance(best);
+  Eigen::MatrixXd covariance = scale * sandwich.covariance(best);
   for (std::size_t i = 0; i < frames.size(); ++i) {
     if (i == fixed) {
       out.poses.push_back({frames[i].centre, Matrix6::Zero(), true});
@@ -119,6 +119,11 @@ JointUncertainty estimate_uncertainty(const std::vector<TwistFrame>& frames, std
     } else {
       out.poses.push_back({frames[i].centre, PoseUncertainty().covariance, false});
     }
+  }
+  if (options.keeps_joint) {
+    covariance.middleRows<6>(static_cast<Eigen::Index>(6 * fixed)).setZero();
+    covariance.middleCols<6>(static_cast<Eigen::Index>(6 * fixed)).setZero();
+    out.joint_covariance_m2 = std::move(covariance);
   }
   return out;
 }

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <utility>
 
 #include "report_parts.hpp"
 
@@ -161,7 +162,7 @@ Json report_object(const PipelineResult& result, const PipelineOptions& options,
               {"fine_voxel_m", result.fine_voxel_m},
               {"set_log_odds", result.set_log_odds},
               {"warnings", result.warnings}};
-  const Eigen::Vector3d& origin = result.scans[result.reference].origin;
+  const Eigen::Vector3d origin = result.local_origin();
   for (const auto& s : result.scans) report["scans"].push_back(to_json(s));
   for (std::size_t i = 0; i < result.poses.size(); ++i) {
     report["scans"][i]["status"] = name_of(result.poses[i].status);
@@ -186,6 +187,7 @@ Json report_object(const PipelineResult& result, const PipelineOptions& options,
   report["merges"] = Json::array();
   for (const auto& m : result.merges) report["merges"].push_back(to_json(m, result));
   report["adjustment"] = adjustment_json(result);
+  if (Json survey = survey_json(result.survey); !survey.is_null()) report["survey"] = std::move(survey);
   report["links"] = Json::array();
   for (const auto& l : result.links) {
     report["links"].push_back({{"a", result.scans[l.a].file},

@@ -31,9 +31,9 @@ std::string title(const Json& report) {
 std::string report_html(const Json& report) {
   using namespace html;
   return head() + title(report) + "<main>\n" + verdict_section(report) + plan_section(report) + scans_section(report) +
-         conflicts_section(report) + links_section(report) + pairs_section(report) + merges_section(report) +
-         adjustment_section(report) + measured_section(report) + stages_section(report) + options_section(report) +
-         signature_section() + "</main>\n</body>\n</html>\n";
+         survey_section(report) + conflicts_section(report) + links_section(report) + pairs_section(report) +
+         merges_section(report) + adjustment_section(report) + measured_section(report) + stages_section(report) +
+         options_section(report) + signature_section() + "</main>\n</body>\n</html>\n";
 }
 
 }  // namespace tcm_icp

@@ -14,6 +14,7 @@ const char* style_sheet();
 std::string verdict_section(const Json& report);  ///< how many scans are registered, which are not, and why
 std::string plan_section(const Json& report);     ///< top view: scans where they were registered, and their links
 std::string scans_section(const Json& report);
+std::string survey_section(const Json& report);  ///< empty where no survey frame was asked for
 std::string links_section(const Json& report);
 std::string conflicts_section(const Json& report);  ///< links that contradict the poses; empty where there are none
 std::string pairs_section(const Json& report);      ///< of a conventional method; else empty
@@ -31,6 +32,9 @@ std::string scan_label(const Json& report, const Json& file);
 
 /// Links of a scan that their own points confirm.
 std::ptrdiff_t accepted_links(const Json& report, const Json& file);
+
+/// Whether poses are in the frame of the reference scan, where that scan is exact by definition.
+bool in_frame_of_reference(const Json& report);
 
 /// Whether the run verifies what it does: the published method and conventional ones do not.
 bool verifies(const Json& report);

@@ -27,10 +27,10 @@ std::string status(const Json& scan) {
 }
 
 // The reference is where it is by definition: its standard deviations are 0, and say nothing.
-std::string sigma(const Json& scan, const char* name, double factor) {
-  if (!scan.contains("uncertainty") || scan.at("uncertainty").is_null() || scan.at("status") != "registered") {
-    return figure(Json());
-  }
+std::string sigma(const Json& report, const Json& scan, const char* name, double factor) {
+  const bool has_pose =
+      scan.at("status") == "registered" || (scan.at("status") == "reference" && !in_frame_of_reference(report));
+  if (!scan.contains("uncertainty") || scan.at("uncertainty").is_null() || !has_pose) return figure(Json());
   return norm(scan.at("uncertainty").at(name), factor);
 }
 
@@ -65,8 +65,9 @@ std::string scans_section(const Json& report) {
     const Json evidence = scan.at("evidence").is_null() ? Json::object() : scan.at("evidence");
     rows.push_back({std::to_string(rows.size()), swatch(rows.size()) + file_name(scan.at("file")), status(scan),
                     percent(evidence.value("overlap", Json())), percent(evidence.value("inlier_share", Json())),
-                    figure(evidence.value("median_residual_m", Json()), 1000), sigma(scan, "sigma_position_m", 1000),
-                    sigma(scan, "sigma_rotation_deg", 1), std::to_string(accepted_links(report, scan.at("file"))),
+                    figure(evidence.value("median_residual_m", Json()), 1000),
+                    sigma(report, scan, "sigma_position_m", 1000), sigma(report, scan, "sigma_rotation_deg", 1),
+                    std::to_string(accepted_links(report, scan.at("file"))),
                     groups ? std::to_string(scan.at("component").get<int>()) : "", sentence(scan.at("reason"))});
   }
   return section(
@@ -88,7 +89,7 @@ std::string scans_section(const Json& report) {
                "Overlap: share of the scan\u2019s points, kept out of every fit, that have a neighbour in other scans; "
                "within noise: share of those that lie on the neighbour\u2019s surface; residual: median distance to "
                "it. 1\u03C3: standard deviation of the scan\u2019s middle and of its rotation against the reference "
-               "scan, root of the sum over the axes. Links: accepted ones. Group 0 is the "
+               "scan, or in the survey frame, root of the sum over the axes. Links: accepted ones. Group 0 is the "
                "reference\u2019s; other groups have frames of their own."));
 }
 

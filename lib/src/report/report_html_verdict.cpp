@@ -30,6 +30,17 @@ std::string remarks(const Json& report) {
     remark(scan_label(report, pair.at(0)) + " and " + scan_label(report, pair.at(1)) +
            " fit each other far worse than other pairs do.");
   }
+  const Json survey = report.value("survey", Json());
+  if (!survey.is_null()) {
+    for (const auto& point : survey.at("points")) {
+      if (point.at("status") != "blunder") continue;
+      const std::string what = point.at("kind") == "scanner" ? "The position of " + file_name(point.at("scan"))
+                                                             : "Control point " + file_name(point.at("name")) + " in " +
+                                                                   file_name(point.at("scan"));
+      remark(what + " contradicts the others and was left out.");
+    }
+    for (const auto& text : survey.at("remarks")) remark(sentence(text));
+  }
   for (const auto& warning : report.value("warnings", Json::array())) remark(sentence(warning));
   std::string free, unchecked;
   for (const auto& scan : report.at("scans")) {
@@ -51,8 +62,9 @@ std::string remarks(const Json& report) {
 double largest_sigma(const Json& report, const char* name) {
   double largest = std::nan("");
   for (const auto& scan : report.at("scans")) {
-    if (scan.at("status") != "registered" || !scan.contains("uncertainty") || scan.at("uncertainty").is_null())
-      continue;
+    const bool counts =
+        scan.at("status") == "registered" || (scan.at("status") == "reference" && !in_frame_of_reference(report));
+    if (!counts || !scan.contains("uncertainty") || scan.at("uncertainty").is_null()) continue;
     double square = 0;
     for (const auto& s : scan.at("uncertainty").at(name)) square += s.is_number() ? std::pow(s.get<double>(), 2) : 0;
     largest = std::fmax(largest, std::sqrt(square));

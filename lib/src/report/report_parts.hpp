@@ -40,6 +40,8 @@ Json to_json(const CorrespondenceGraph& graph, std::size_t reference, const std:
 
 /// The joint adjustment and what limits its poses.
 Json adjustment_json(const PipelineResult& result);
+/// Null where no survey frame was asked for.
+Json survey_json(const SurveyRecord& survey);
 /// Null where the pose is not determined. `origin` is added to positions.
 Json to_json(const PoseUncertainty& pose, const Eigen::Vector3d& origin);
 Json to_json(const LinkStrength& strength, const Eigen::Vector3d& origin);

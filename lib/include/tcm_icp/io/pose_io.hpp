@@ -25,6 +25,8 @@ struct ScanPose {
 struct PoseFile {
   std::string reference;  ///< file of the reference scan
   std::vector<ScanPose> scans;
+  std::string frame = {};  ///< what defines the common frame; empty: the reference scan
+  std::string crs = {};    ///< coordinate system of that frame, EPSG:n or well-known text; empty: not known
 };
 
 /// Numbers have 17 significant digits: reading gives the same bits. `pose` is null where a scan is unregistered. Bytes
@@ -44,6 +46,16 @@ PoseFile read_pose_file(const std::filesystem::path& path);
 /// `files`
 std::vector<std::optional<Eigen::Isometry3d>> read_initial_poses(const std::filesystem::path& path,
                                                                  const std::vector<std::string>& files);
+
+/// How well an initial pose is known.
+struct PoseSigmas {
+  double position_m = 0, rotation_rad = 0;  ///< > 0
+};
+
+/// Of the same entries: fields "sigma_position_m" and "sigma_rotation_deg". nullopt where a scan has neither.
+/// @throws InputError  where an entry has one of the two, is not above 0, or has no pose
+std::vector<std::optional<PoseSigmas>> read_initial_sigmas(const std::filesystem::path& path,
+                                                           const std::vector<std::string>& files);
 
 /// The 4 x 4 matrix as four lines of text, 17 significant digits: what CloudCompare's "Apply transformation" reads.
 /// @throws OutputError  if the file cannot be written

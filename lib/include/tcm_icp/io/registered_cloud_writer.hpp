@@ -30,6 +30,9 @@ struct RegisteredCloudOptions {
   CloudFormat format = CloudFormat::kPly;
   CloudColour colour = CloudColour::kKeep;
   std::string reference = {};  ///< name of the reference scan, for a comment in the header
+  std::string frame = {};      ///< what defines the frame where it is not the reference scan, for the same
+  /// Coordinate system of the frame: a comment in PLY; in LAS and E57 where its well-known text is given or known.
+  std::string crs = {};
   /// The file is for one scan alone: no column for its index, and with kKeep no colour that it does not have.
   bool one_scan = false;
   std::uint16_t point_source_id = 0;  ///< LAS, one_scan: where the scan has no column of that name
@@ -40,8 +43,10 @@ struct RegisteredCloudOptions {
   /// LAS: what becomes 0 and 65535 in the field of that name where intensities are not its type.
   double least_intensity = 0, most_intensity = 65535;
   std::vector<std::string> scan_names = {};  ///< E57: by scan index; "scan 1" where it is shorter
-  std::string coordinate_system = {};        ///< E57: well-known text of the reference scan's frame; empty: not told
 };
+
+/// Whether a LAS file can name this coordinate system.
+bool las_names_crs(const std::string& crs);
 
 /// Whether a PCD of these points has coordinates as doubles, which PCL does not take for its points.
 bool pcd_needs_doubles(const Eigen::AlignedBox3d& box, double largest_step);

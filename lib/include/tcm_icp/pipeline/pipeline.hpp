@@ -9,6 +9,7 @@
 #include "tcm_icp/core/run_context.hpp"
 #include "tcm_icp/pipeline/pipeline_options.hpp"
 #include "tcm_icp/pipeline/pipeline_result.hpp"
+#include "tcm_icp/survey/survey.hpp"
 
 namespace tcm_icp {
 
@@ -24,10 +25,11 @@ class Pipeline {
   /// @param initial_poses  one a scan; a scan without one is found by its links, or taken as it lies (paper profile)
   /// @throws InputError, InvalidInput  a file that cannot be read, fewer than two scans, the same file twice,
   ///                                   fewer than three points or all points equal
-  /// @throws InvalidOptions            a reference that is no scan
+  /// @param survey         what defines the common frame in place of the reference scan; robust profile only
+  /// @throws InvalidOptions            a reference that is no scan, a fixed scan without an initial pose
   /// @throws Cancelled                 the context's on_progress asked for it
   PipelineResult run(const std::vector<std::filesystem::path>& paths, const InitialPoses& initial_poses,
-                     const RunContext& context) const;
+                     const RunContext& context, const Survey& survey = {}) const;
 
   const PipelineOptions& options() const { return options_; }
 

@@ -16,6 +16,7 @@
 #include "tcm_icp/merging/merge_record.hpp"
 #include "tcm_icp/outliers/outlier_removal.hpp"
 #include "tcm_icp/registration/pose_covariance.hpp"
+#include "tcm_icp/survey/survey_record.hpp"
 #include "tcm_icp/visibility/free_space.hpp"
 #include "tcm_icp/visibility/viewpoint.hpp"
 
@@ -61,7 +62,8 @@ struct PipelineResult {
   CorrespondenceGraph graph;
   std::vector<MergeRecord> merges;
   AdjustmentRecord adjustment;   ///< of the reference's group; robust profile only
-  JointUncertainty uncertainty;  ///< of the same, in the reference's local frame; no poses in the paper profile
+  JointUncertainty uncertainty;  ///< of the same, in the local frame; no poses in the paper profile
+  SurveyRecord survey;           ///< robust profile only
   std::vector<LinkRecord> links;
   std::vector<LinkHypothesisRecord> hypotheses;  ///< robust profile only
   std::vector<PairFit> pairs;                    ///< of a conventional method; in local frames
@@ -73,6 +75,8 @@ struct PipelineResult {
   double set_log_odds = 0;    ///< constant in the log-odds of all hypotheses and links, learnt from the poses
 
   bool all_registered() const;
+  /// [m] The local frame, in which uncertainties and strengths are, is the common one minus this.
+  Eigen::Vector3d local_origin() const { return survey.has_frame ? survey.origin : scans[reference].origin; }
 };
 
 }  // namespace tcm_icp

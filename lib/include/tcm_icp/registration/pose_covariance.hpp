@@ -31,11 +31,14 @@ struct JointUncertainty {
   double correlation_factor = 1;
   /// And because links disagree by more than their blocks explain: >= 1; 1 where no loop can tell.
   double disagreement_factor = 1;
+  /// [m^2] of all scans' steps about their frames, 6 n x 6 n, zero for the fixed scan; empty unless asked for.
+  Eigen::MatrixXd joint_covariance_m2;
 };
 
 struct PoseCovarianceOptions {
   double smallest_block_m = 0;          ///< [m] > 0; the resolution of the points
   std::size_t min_blocks_of_scan = 30;  ///< >= 7; larger blocks are not tried once the typical scan has fewer
+  bool keeps_joint = false;             ///< the covariance of all scans together, too
   void validate() const;                ///< throws InvalidOptions
 };
 

@@ -1,0 +1,117 @@
+#include "survey_setup.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <fstream>
+#include <iterator>
+#include <numbers>
+
+#include "run_setup.hpp"
+#include "suggestion.hpp"
+#include "tcm_icp/core/error.hpp"
+#include "tcm_icp/io/pose_io.hpp"
+#include "tcm_icp/io/scan_path.hpp"
+#include "tcm_icp/survey/control_file.hpp"
+
+namespace tcm_icp::app {
+namespace {
+
+void check(const RegisterOptions& o) {
+  const SurveyOptions& s = o.survey;
+  const bool has_frame = !s.control.empty() || !s.positions.empty() || !s.fixed.empty();
+  if (has_frame && o.method != Method::kTcm) {
+    throw InvalidOptions("--control, --gnss and --fix belong to --method tcm; leave --method out");
+  }
+  if (!s.fixed.empty() && o.initial_poses.empty()) {
+    throw InvalidOptions("--fix " + s.fixed.front() +
+                         ": keeps a scan where --init puts it; give --init POSES.json, too");
+  }
+  if (!(s.level_sigma_deg >= 0 && s.level_sigma_deg < 45)) {
+    throw InvalidOptions("--level-sigma must be at least 0 and below 45 degrees, not " +
+                         std::to_string(s.level_sigma_deg));
+  }
+  if (has_frame) return;
+  const char* const without = ": without --control, --gnss or --fix results are in the frame of a scan";
+  if (!s.crs.empty()) throw InvalidOptions("--crs" + std::string(without));
+  if (s.level_sigma_deg > 0) throw InvalidOptions("--level-sigma" + std::string(without));
+}
+
+std::string trimmed(const std::string& text) {
+  constexpr const char* kBlanks = " \t\r\n";
+  const std::size_t begin = text.find_first_not_of(kBlanks);
+  return begin == std::string::npos ? "" : text.substr(begin, text.find_last_not_of(kBlanks) - begin + 1);
+}
+
+bool is_epsg(const std::string& text) {
+  const std::string start = "EPSG:";
+  return text.starts_with(start) && text.size() > start.size() &&
+         std::all_of(text.begin() + static_cast<std::ptrdiff_t>(start.size()), text.end(),
+                     [](unsigned char c) { return std::isdigit(c) != 0; });
+}
+
+bool is_well_known_text(const std::string& text) {
+  const auto bracket = text.find('[');
+  return bracket != std::string::npos && bracket > 0 && text.ends_with(']') &&
+         std::all_of(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(bracket),
+                     [](unsigned char c) { return std::isupper(c) != 0 || std::isdigit(c) != 0 || c == '_'; });
+}
+
+std::string read_crs(const std::string& option) {
+  std::string text = trimmed(option);
+  if (is_epsg(text) || is_well_known_text(text)) return text;
+  std::ifstream in(option, std::ios::binary);
+  if (in && !std::filesystem::is_directory(option)) {
+    text = trimmed({std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()});
+    if (is_epsg(text) || is_well_known_text(text)) return text;
+    throw InputError(option, "", "holds no coordinate system", "it must be EPSG:n or well-known text (.wkt, .prj)");
+  }
+  throw InvalidOptions("--crs '" + option + "': give EPSG:n, well-known text, or a file that holds it (.wkt, .prj)");
+}
+
+/// Initial poses with standard deviations are observations; others are where searches may start.
+void add_priors(const RegisterOptions& o, const std::vector<std::string>& names, Survey& survey) {
+  if (o.initial_poses.empty() || o.initial_poses == kFromHeaders) return;
+  if (o.method != Method::kTcm || o.pipeline.profile != Profile::kRobust) return;
+  const auto sigmas = read_initial_sigmas(o.initial_poses, names);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (sigmas[i]) survey.priors.push_back({names[i], sigmas[i]->position_m, sigmas[i]->rotation_rad});
+  }
+}
+
+}  // namespace
+
+Survey read_survey(const RegisterOptions& options, const std::vector<std::filesystem::path>& scans) {
+  check(options);
+  const SurveyOptions& s = options.survey;
+  Survey survey;
+  if (!s.control.empty()) survey.points = read_control_file(s.control, scans);
+  if (!s.positions.empty()) {
+    const auto positions = read_scanner_positions(s.positions, scans);
+    survey.points.insert(survey.points.end(), positions.begin(), positions.end());
+  }
+  const std::vector<std::string> names = scan_names(scans);
+  for (const auto& fixed : s.fixed) {
+    bool found = false;
+    for (std::size_t i = 0; i < scans.size(); ++i) {
+      if (!is_called(fixed, scans[i], names[i], i)) continue;
+      if (std::find(survey.fixed.begin(), survey.fixed.end(), names[i]) == survey.fixed.end()) {
+        survey.fixed.push_back(names[i]);
+      }
+      found = true;
+    }
+    if (!found) throw InvalidOptions("--fix " + fixed + ": no scan is called that" + did_you_mean(fixed, names));
+  }
+  add_priors(options, names, survey);
+  survey.sigma_level_rad = s.level_sigma_deg * std::numbers::pi / 180;
+  if (!s.crs.empty()) survey.crs = read_crs(s.crs);
+  return survey;
+}
+
+void settle_coordinate_system(const RegisterOptions& options, const std::vector<std::filesystem::path>& scans,
+                              const RunContext& context, Survey& survey) {
+  const std::string of_scans = report_coordinate_systems(
+      scans, survey.empty() ? "which results do not keep" : "which results keep unless --crs names another", context);
+  if (!survey.empty() && options.survey.crs.empty()) survey.crs = of_scans;
+}
+
+}  // namespace tcm_icp::app
