@@ -296,7 +296,7 @@ TEST(E57Writing, AScanThatComesAgainIsOneMore) {
 TEST(E57Writing, MoreColumnsThanAPacketHoldsAreRefused) {
   const TempFolder folder;
   std::vector<Attribute> many;
-  for (int i = 0; i < 1200; ++i) many.push_back({"c" + std::to_string(i), kFloat64});
+  for (int i = 0; i < 1200; ++i) many.push_back({std::string("c").append(std::to_string(i)), kFloat64});
   RegisteredCloudWriter writer(folder.path() / "out.e57", {many}, e57_options());
   const PointBlock one{{{0, 0, 0}}, std::vector<std::byte>(attribute_stride(many))};
   const std::string text = error_of<OutputError>([&] { writer.write(0, one, many, Eigen::Isometry3d::Identity()); });

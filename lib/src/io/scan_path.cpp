@@ -39,10 +39,10 @@ std::pair<fs::path, std::string> take_word(const fs::path& path) {
 
 fs::path path_of(const ScanPath& scan) {
   std::string text = scan.file.string();
-  if (scan.number > 0) text += "#" + std::to_string(scan.number);
+  if (scan.number > 0) text.append("#").append(std::to_string(scan.number));
   if (scan.bin == BinLayout::kKitti) text += "#kitti";
   if (scan.bin == BinLayout::kNuScenes) text += "#nuscenes";
-  if (scan.unit != LengthUnit::kMetre) text += "#" + name_of(scan.unit);
+  if (scan.unit != LengthUnit::kMetre) text.append("#").append(name_of(scan.unit));
   return text;
 }
 
