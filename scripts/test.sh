@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds the release preset with its tests, and runs every test. The last line is
-# "N passed, M failed" (and ", K skipped" where some were); each GoogleTest case counts as one.
+# "N passed, M failed" (and ", K skipped" where some were); each GoogleTest case counts as one. With
+# TCM_ICP_WARNINGS_AS_ERRORS=ON in the environment a warning of the compiler fails the build.
 set -euo pipefail
 # shellcheck source=scripts/common.sh
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
@@ -28,7 +29,8 @@ closing_line() {
 }
 
 quiet_step install scripts/install_dependencies.sh --tests --conventional || fail "dependencies cannot be installed"
-quiet_step configure cmake --preset release -DTCM_ICP_BUILD_TESTS=ON || fail "configuring failed"
+quiet_step configure cmake --preset release -DTCM_ICP_BUILD_TESTS=ON \
+  -DTCM_ICP_WARNINGS_AS_ERRORS="${TCM_ICP_WARNINGS_AS_ERRORS:-OFF}" || fail "configuring failed"
 quiet_step build cmake --build build/release --parallel "$(nproc)" || fail "the build failed"
 
 rm -f "$junit"
