@@ -208,6 +208,7 @@ struct LasExtraEntry {
 static_assert(sizeof(LasHeader14) == 375 && sizeof(LasPoint7) == 36 && sizeof(LasRecordHeader) == 54 &&
               sizeof(LasExtraEntry) == 192);
 
+// Fields lie anywhere: a plus before them makes a copy, where an expectation would take a reference.
 template <typename T>
 T struct_at(const std::string& bytes, std::size_t at) {
   T value{};
@@ -222,30 +223,30 @@ TEST(CloudFormats, TheLasFileIsAsTheStandardHasIt) {
   const std::string file = read_text(folder.path() / "out.las");
   const auto header = struct_at<LasHeader14>(file, 0);
   EXPECT_EQ(std::string(header.signature, 4), "LASF");
-  EXPECT_EQ(header.major, 1);
-  EXPECT_EQ(header.minor, 4);
-  EXPECT_EQ(header.global_encoding, 16);
+  EXPECT_EQ(+header.major, 1);
+  EXPECT_EQ(+header.minor, 4);
+  EXPECT_EQ(+header.global_encoding, 16);
   EXPECT_STREQ(header.software, "tcm-icp");
-  EXPECT_EQ(header.header_size, 375);
-  EXPECT_EQ(header.num_records, 1U);
-  EXPECT_EQ(header.first_point, 375U + 54 + 3 * 192);
-  EXPECT_EQ(header.point_format, 7);
-  EXPECT_EQ(header.point_size, 36 + 4 + 4 + 1);
-  EXPECT_EQ(header.legacy_points, 0U);
-  EXPECT_EQ(header.num_points, 3U);
-  EXPECT_EQ(header.by_return[0], 3U);
+  EXPECT_EQ(+header.header_size, 375);
+  EXPECT_EQ(+header.num_records, 1U);
+  EXPECT_EQ(+header.first_point, 375U + 54 + 3 * 192);
+  EXPECT_EQ(+header.point_format, 7);
+  EXPECT_EQ(+header.point_size, 36 + 4 + 4 + 1);
+  EXPECT_EQ(+header.legacy_points, 0U);
+  EXPECT_EQ(+header.num_points, 3U);
+  EXPECT_EQ(+header.by_return[0], 3U);
   EXPECT_EQ(header.waveforms + header.first_long_record + header.num_long_records, 0U);
   ASSERT_EQ(file.size(), header.first_point + 3U * header.point_size);
   const auto record = struct_at<LasRecordHeader>(file, 375);
   EXPECT_STREQ(record.user, "LASF_Spec");
-  EXPECT_EQ(record.id, 4);
-  EXPECT_EQ(record.length, 3 * 192);
+  EXPECT_EQ(+record.id, 4);
+  EXPECT_EQ(+record.length, 3 * 192);
   const std::array<std::pair<const char*, int>, 3> extras{{{"reflectance", 9}, {"label", 6}, {"input_scan", 1}}};
   for (std::size_t i = 0; i < 3; ++i) {
     const auto entry = struct_at<LasExtraEntry>(file, 375 + 54 + 192 * i);
     EXPECT_STREQ(entry.name, extras[i].first);
-    EXPECT_EQ(entry.type, extras[i].second);
-    EXPECT_EQ(entry.options, 0);
+    EXPECT_EQ(+entry.type, extras[i].second);
+    EXPECT_EQ(+entry.options, 0);
   }
   Eigen::AlignedBox3d box;
   const Points raw{{1, 2, 3}, {-40, 55.5, 0.125}, {10, 10, 10}};
@@ -255,11 +256,11 @@ TEST(CloudFormats, TheLasFileIsAsTheStandardHasIt) {
                             point.z * header.scale[2] + header.offset[2]);
     EXPECT_LT((p - to_utm() * raw[i]).norm(), 1e-7) << i;
     box.extend(p);
-    EXPECT_EQ(point.returns, 0x11);
-    EXPECT_EQ(point.source_id, i < 2 ? 1 : 2);
+    EXPECT_EQ(+point.returns, 0x11);
+    EXPECT_EQ(+point.source_id, i < 2 ? 1 : 2);
   }
-  EXPECT_EQ(box.min(), Eigen::Vector3d(header.min_x, header.min_y, header.min_z));
-  EXPECT_EQ(box.max(), Eigen::Vector3d(header.max_x, header.max_y, header.max_z));
+  EXPECT_EQ(box.min(), Eigen::Vector3d(+header.min_x, +header.min_y, +header.min_z));
+  EXPECT_EQ(box.max(), Eigen::Vector3d(+header.max_x, +header.max_y, +header.max_z));
 }
 
 TEST(CloudFormats, WhatALasFileHasComesBackAsItWas) {
