@@ -22,6 +22,11 @@ Scene block(std::uint64_t seed, double perimeter_m = 200) {
   return make_block_scene({perimeter_m}, rng);
 }
 
+Scene town_grid(std::uint64_t seed, double length_m = 420) {
+  Rng rng = make_stream(seed, "test");
+  return make_town_grid_scene({length_m}, rng);
+}
+
 SceneSet simulate(SceneKind kind, int num_scans, std::uint64_t seed, int num_threads = 1) {
   SceneSetOptions options = default_scene_set(kind);
   options.num_scans = num_scans;
@@ -46,7 +51,8 @@ std::vector<double> panorama(const RayCaster& caster, const PathPoint& at) {
 
 TEST(StreetScene, IsTheSameForTheSameSeedAndAnotherForAnother) {
   for (const auto& make : {std::function([](std::uint64_t seed) { return street(seed); }),
-                           std::function([](std::uint64_t seed) { return block(seed); })}) {
+                           std::function([](std::uint64_t seed) { return block(seed); }),
+                           std::function([](std::uint64_t seed) { return town_grid(seed); })}) {
     const Scene a = make(1), b = make(1), c = make(2);
     ASSERT_EQ(a.mesh.triangles.size(), b.mesh.triangles.size());
     for (std::size_t i = 0; i < a.mesh.triangles.size(); ++i) ASSERT_EQ(a.mesh.triangles[i].a, b.mesh.triangles[i].a);
@@ -57,7 +63,7 @@ TEST(StreetScene, IsTheSameForTheSameSeedAndAnotherForAnother) {
 
 TEST(StreetScene, LeavesRoomToStandAnywhereAlongThePath) {
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
-    for (const Scene& scene : {street(seed), block(seed)}) {
+    for (const Scene& scene : {street(seed), block(seed), town_grid(seed)}) {
       const RayCaster caster(scene.mesh);
       for (double s = 1; s < path_length_m(scene.path) - 1; s += 3) {
         const PathPoint at = along_path(scene.path, s);
@@ -93,6 +99,8 @@ TEST(StreetScene, HasTheLengthThatWasAskedFor) {
   const Scene scene = block(1, 240);
   EXPECT_NEAR(path_length_m(scene.path), 240, 15);
   EXPECT_EQ(scene.path.front(), scene.path.back());
+  for (const double length_m : {420.0, 900.0, 1700.0})
+    EXPECT_NEAR(path_length_m(town_grid(1, length_m).path), length_m, 30);
 }
 
 TEST(StreetScene, RefusesLengthsOutOfBounds) {
@@ -100,6 +108,8 @@ TEST(StreetScene, RefusesLengthsOutOfBounds) {
   EXPECT_THROW(street(1, 1e6), InvalidOptions);
   EXPECT_THROW(block(1, 100), InvalidOptions);
   EXPECT_THROW(block(1, NAN), InvalidOptions);
+  EXPECT_THROW(town_grid(1, 300), InvalidOptions);
+  EXPECT_THROW(town_grid(1, 1e6), InvalidOptions);
 }
 
 TEST(StreetSet, NeighboursOverlapAndFarScansShareNothing) {
@@ -123,8 +133,28 @@ TEST(BlockSet, ClosesTheLoop) {
   EXPECT_LT(overlap(0, 6), 0.1);  // houses stand between
 }
 
+// Each station of three streets along and three across: those of crossing streets meet.
+TEST(TownGridSet, HasLoopsEverywhereAndFewNeighborsForEach) {
+  const SceneSet set = simulate(SceneKind::kTownGrid, 84, 1);
+  const Eigen::Index n = 84;
+  int most = 0, apart = 0;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    int neighbors = 0;
+    for (Eigen::Index j = 0; j < n; ++j) {
+      if (i == j || std::max(set.truth.overlap(i, j), set.truth.overlap(j, i)) < 0.2) continue;
+      ++neighbors;
+      apart += std::abs(i - j) > 6 ? 1 : 0;  // another street, or the same one again
+    }
+    EXPECT_GE(neighbors, 1) << i;
+    most = std::max(most, neighbors);
+  }
+  EXPECT_LT(most, 20);
+  EXPECT_GT(apart, n / 2);
+  EXPECT_LT(set.truth.tolerance.rmse_m, 0.2) << "errors add up across the town, not along all of its streets";
+}
+
 TEST(StreetSet, IsMadeForAnyNumberOfScansAndThreads) {
-  for (const SceneKind kind : {SceneKind::kBlock, SceneKind::kStreet}) {
+  for (const SceneKind kind : {SceneKind::kBlock, SceneKind::kStreet, SceneKind::kTownGrid}) {
     EXPECT_EQ(simulate(kind, 1, 1).scans.size(), 1u);
     const SceneSet one = simulate(kind, 3, 2, 1), three = simulate(kind, 3, 2, 3);
     for (std::size_t i = 0; i < 3; ++i) {

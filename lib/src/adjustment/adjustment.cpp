@@ -128,8 +128,13 @@ ScanPairs overlapping_pairs(const std::vector<PreparedScan>& scans,
                             double min_overlap, int num_threads) {
   ScanPairs candidates;
   for (std::size_t a = 0; a < scans.size(); ++a) {
+    if (!placed[a]) continue;
+    const double distance_m = scans[a].pyramid.level(1).voxel_size_m;
     for (std::size_t b = a + 1; b < scans.size(); ++b) {
-      if (placed[a] && placed[b]) candidates.emplace_back(a, b);
+      if (!placed[b]) continue;
+      if (may_meet(scans[a], scans[b], T_reference_scan[a].inverse() * T_reference_scan[b], distance_m)) {
+        candidates.emplace_back(a, b);
+      }
     }
   }
   std::vector<double> shares(candidates.size(), 0);

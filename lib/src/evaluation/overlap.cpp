@@ -13,8 +13,8 @@ Eigen::MatrixXd overlap_matrix(const std::vector<Points>& clouds, int num_thread
   constexpr double kNearInSpacings = 3;
   std::vector<NeighborIndex> indices;
   std::vector<double> radii_m;
-  std::vector<Eigen::AlignedBox3d>
-      reaches;  // most pairs of a long street share nothing: no query is needed to see that
+  // Most pairs of a long street share nothing: no query is needed to see that.
+  std::vector<Eigen::AlignedBox3d> reaches;
   for (const Points& points : clouds) {
     indices.emplace_back(points);
     radii_m.push_back(kNearInSpacings * median_spacing(points, indices.back()));
@@ -28,7 +28,7 @@ Eigen::MatrixXd overlap_matrix(const std::vector<Points>& clouds, int num_thread
   parallel_for(num_threads, n * n, [&](std::size_t begin, std::size_t end) {
     for (std::size_t cell = begin; cell < end; ++cell) {
       const std::size_t i = cell / n, j = cell % n;
-      if (clouds[i].empty()) continue;
+      if (clouds[i].empty() || !reaches[i].intersects(reaches[j])) continue;
       const auto near = std::count_if(clouds[i].begin(), clouds[i].end(), [&](const Eigen::Vector3d& p) {
         return reaches[j].contains(p) && indices[j].nearest_within(p, radii_m[j]).found();
       });

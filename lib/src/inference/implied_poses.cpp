@@ -19,11 +19,13 @@ bool agrees(const PairGraph& graph, std::size_t a, std::size_t b, const Eigen::I
 
 }  // namespace
 
-std::vector<ImpliedPose> implied_poses(const PairGraph& graph, const Component& component, double clear_lead) {
+std::vector<ImpliedPose> implied_poses(
+    const PairGraph& graph, const Component& component, double clear_lead,
+    const std::function<bool(std::size_t, std::size_t, const Eigen::Isometry3d&)>& may_overlap) {
   std::vector<ImpliedPose> out;
   std::size_t configuration = 0;
   const auto imply = [&](std::size_t a, std::size_t b, const Eigen::Isometry3d& T_a_b) {
-    out.push_back({a, b, T_a_b, agrees(graph, a, b, T_a_b), configuration});
+    if (may_overlap(a, b, T_a_b)) out.push_back({a, b, T_a_b, agrees(graph, a, b, T_a_b), configuration});
   };
   const std::vector<std::size_t> members = component.members();
   const auto& T = component.T_reference_scan;

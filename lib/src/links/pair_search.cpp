@@ -31,6 +31,9 @@ constexpr std::size_t kImpliedPartners = 12;
 constexpr std::size_t kSlidesOfPose = 8;  // from one pose
 // Of a pair and method, beside those that free space vetoes; a clear hypothesis ends them.
 constexpr int kMaxFits = 3;
+// The pyramid's level at which poses are asked for overlap, and the distance of what overlaps, in its voxels.
+constexpr std::size_t kOverlapLevel = 2;
+constexpr double kOverlapInVoxels = 2;
 
 // Each of the two may be off the vertical.
 bool tilts(const Eigen::Isometry3d& T) { return T.linear()(2, 2) < std::cos(2 * kMaxLevelTilt_deg * EIGEN_PI / 180); }
@@ -81,6 +84,13 @@ struct PairSearch::Impl {
     return screened[std::min(a, b) * scans.size() + std::max(a, b)];
   }
   Tried& state(std::size_t a, std::size_t b) { return tried[std::min(a, b) * scans.size() + std::max(a, b)]; }
+
+  double overlap_distance_m(std::size_t scan) const {
+    return kOverlapInVoxels * scans[scan].pyramid.level(kOverlapLevel).voxel_size_m;
+  }
+  bool may_overlap(std::size_t a, std::size_t b, const Eigen::Isometry3d& T_a_b) const {
+    return may_meet(scans[a], scans[b], T_a_b, overlap_distance_m(a));
+  }
 
   /// Pairs of the state wanted, of each wanted scan with its likeliest partners.
   ScanPairs pairs(Tried state_wanted, const std::vector<bool>& wanted) {
@@ -214,8 +224,9 @@ struct PairSearch::Impl {
     parallel_for(context.num_threads, poses.size(), [&](std::size_t begin, std::size_t end) {
       for (std::size_t k = begin; k < end; ++k) {
         const auto& [a, b, T_a_b, agrees, configuration] = poses[k];
-        const PyramidLevel &x = scans[a].pyramid.level(2), &y = scans[b].pyramid.level(2);
-        overlaps[k] = overlap({x.cloud.points, x.index}, {y.cloud.points, y.index}, T_a_b, 2 * x.voxel_size_m);
+        const PyramidLevel &x = scans[a].pyramid.level(kOverlapLevel), &y = scans[b].pyramid.level(kOverlapLevel);
+        if (!may_overlap(a, b, T_a_b)) continue;
+        overlaps[k] = overlap({x.cloud.points, x.index}, {y.cloud.points, y.index}, T_a_b, overlap_distance_m(a));
       }
     });
     for (const std::size_t k : most_overlapping(poses, overlaps, most_partners)) {
@@ -291,11 +302,16 @@ void PairSearch::try_guesses(const std::vector<std::optional<Eigen::Isometry3d>>
   std::vector<ImpliedPose> poses;
   for (std::size_t a = 0; a < T_common_scan.size(); ++a) {
     for (std::size_t b = a + 1; b < T_common_scan.size(); ++b) {
-      if (T_common_scan[a] && T_common_scan[b])
-        poses.push_back({a, b, T_common_scan[a]->inverse() * *T_common_scan[b]});
+      if (!T_common_scan[a] || !T_common_scan[b]) continue;
+      const Eigen::Isometry3d T_a_b = T_common_scan[a]->inverse() * *T_common_scan[b];
+      if (may_overlap(a, b, T_a_b)) poses.push_back({a, b, T_a_b});
     }
   }
   impl_->try_poses(poses, CoarseMethod::kGuess, poses.size(), set);
+}
+
+bool PairSearch::may_overlap(std::size_t a, std::size_t b, const Eigen::Isometry3d& T_a_b) const {
+  return impl_->may_overlap(a, b, T_a_b);
 }
 
 bool PairSearch::try_implied(const std::vector<ImpliedPose>& poses, HypothesisSet& set) {

@@ -20,6 +20,9 @@ class PairSearch {
   PairSearch(const std::vector<PreparedScan>& scans, const LinkSearchOptions& options, const RunContext& context);
   ~PairSearch();
 
+  /// Whether two scans can overlap at all at a pose, as far as their extents tell.
+  bool may_overlap(std::size_t a, std::size_t b, const Eigen::Isometry3d& T_a_b) const;
+
   /// Fits pairs from poses that others of their scans lead to, where they overlap there and were not tried before. True
   /// where any was fitted.
   bool try_implied(const std::vector<ImpliedPose>& poses, HypothesisSet& set);

@@ -20,28 +20,32 @@ struct MergeChoice {
   Eigen::Isometry3d T_reference_scan = Eigen::Isometry3d::Identity();
 };
 
+/// How a choice fits S.
+struct MergeMeasure {
+  TcmTerms terms;
+  double overlap = 0;  ///< 0..1; where the order asks for it
+};
+
 class TcmOrder {
  public:
   /// Keeps references: all three must outlive it.
   TcmOrder(const std::vector<PreparedScan>& scans, const MergeOptions& options, const RunContext& context);
 
-  struct Next {
-    std::size_t position = 0;  ///< among the choices
-    TcmTerms terms;            ///< of its scan against S, where the order takes them
-  };
-  /// The choice with the least tau against S, or as the options ask for. @pre choices is not empty
-  Next next(const ScanPyramid& s, const std::vector<MergeChoice>& choices);
+  /// The pyramid's level of S that choices are measured at.
+  std::size_t level() const;
 
-  void grown() { s_cloud_.reset(); }  ///< S is another one from now on
+  /// Of choices against S at level(). Thread-safe.
+  std::vector<MergeMeasure> measure(const PyramidLevel& s, const std::vector<MergeChoice>& choices) const;
+
+  /// Position of the choice with the least tau, or as the options ask for. @pre choices is not empty
+  std::size_t next(const std::vector<MergeChoice>& choices, const std::vector<MergeMeasure>& measures);
 
  private:
-  std::vector<TcmTerms> measure(const ScanPyramid& s, const std::vector<MergeChoice>& choices);
+  TcmTerms terms(const RobustTcmCloud& s, const MergeChoice& choice) const;
 
   const std::vector<PreparedScan>& scans_;
   const MergeOptions& options_;
   const RunContext& context_;
-  std::vector<std::optional<RobustTcmCloud>> clouds_;  ///< of the scans, once they are asked for
-  std::optional<RobustTcmCloud> s_cloud_;
   std::size_t num_random_ = 0;
 };
 

@@ -76,21 +76,21 @@ void run_paper_pipeline(const PipelineInput& in, PipelineResult& result) {
   while (!left.empty()) {  // line 4
     in.context.report("merging", n - left.size(), n);
     const ScanPyramid cloud = s.pyramid();
-    const TcmOrder::Next next = order.next(cloud, left);  // line 5: the scan with the least tau, Eq. 1
-    const MergeChoice q = left[next.position];
+    const auto measures = order.measure(cloud.level(order.level()), left);
+    const std::size_t next = order.next(left, measures);  // line 5: the scan with the least tau, Eq. 1
+    const MergeChoice q = left[next];
     MergeRecord record;
     record.scan = q.scan;
-    record.tcm = next.terms;
+    record.tcm = measures[next].terms;
     Rng rng = make_stream(in.context.seed, "placement", scans[q.scan].key);
     T[q.scan] = place_scan_as_printed(scans[q.scan], cloud, q.T_reference_scan, merging, rng, record);  // 6, 7
     if (record.accepted) {
       s.add(scans[q.scan].pyramid.level(0).cloud, T[q.scan]);  // line 8
-      order.grown();
       merged[q.scan] = true;
     }
     in.context.debug(in.files[q.scan] + (record.accepted ? " merged: " : " set aside: ") + record.reason);
     result.merges.push_back(std::move(record));
-    left.erase(left.begin() + static_cast<std::ptrdiff_t>(next.position));
+    left.erase(left.begin() + static_cast<std::ptrdiff_t>(next));
   }
 
   report_links(scans, T, merged, in.context, result);

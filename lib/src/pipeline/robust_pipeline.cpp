@@ -80,7 +80,8 @@ class RobustPipeline {
     std::vector<bool> wanted(size(), true);
     while (search.extend(wanted, *hypotheses_)) {
       Inferred now = infer();
-      for (int round = 0; round < kMaxImplied && search.try_implied(implied(now), *hypotheses_); ++round) now = infer();
+      for (int round = 0; round < kMaxImplied && search.try_implied(implied(now, search), *hypotheses_); ++round)
+        now = infer();
       wanted = without_clear_place(now);
       if (std::count(wanted.begin(), wanted.end(), true) == 0) break;
     }
@@ -98,10 +99,15 @@ class RobustPipeline {
     }
   }
 
-  static std::vector<ImpliedPose> implied(const Inferred& now) {
+  static std::vector<ImpliedPose> implied(const Inferred& now, const PairSearch& search) {
     std::vector<ImpliedPose> out;
+    const auto may_overlap = [&](std::size_t a, std::size_t b, const Eigen::Isometry3d& T_a_b) {
+      return search.may_overlap(a, b, T_a_b);
+    };
     for (const Component& component : now.components) {
-      for (const ImpliedPose& pose : implied_poses(now.graph, component, kLeadToRest)) out.push_back(pose);
+      for (const ImpliedPose& pose : implied_poses(now.graph, component, kLeadToRest, may_overlap)) {
+        out.push_back(pose);
+      }
     }
     return out;
   }

@@ -15,17 +15,6 @@
 namespace tcm_icp {
 namespace {
 
-// Blocks the typical scan has matches in.
-double blocks_of_scan(const std::vector<BlockScore>& scores) {
-  std::map<std::size_t, double> counts;
-  for (const auto& score : scores) {
-    for (const auto& [scan, part] : score) ++counts[scan];
-  }
-  std::vector<double> values;
-  for (const auto& [scan, count] : counts) values.push_back(count);
-  return values.empty() ? 0 : median(values);
-}
-
 // Median over the pairs of how far their own optima are from the joint one, squared, in units of their blocks' scatter:
 // by what it would be if the blocks explained it. Loops of the graph leave 6 (links - scans + 1) of 6 links to see.
 double disagreement(const std::vector<JointLink>& links, double threshold_m, double block_m) {
@@ -90,37 +79,42 @@ JointUncertainty estimate_uncertainty(const std::vector<TwistFrame>& frames, std
   }
   JointUncertainty out;
   out.noise_m = robust_noise_m(links);
-  out.block_m = options.smallest_block_m;
   const ScoreSandwich sandwich(frames, fixed, links, out.noise_m);
-  std::vector<BlockScore> best = sandwich.scores(out.block_m);
-  const double independent = sandwich.variance_ratio(best);
-  double largest = independent;
-  for (double edge_m = 2 * options.smallest_block_m;; edge_m *= 2) {
-    std::vector<BlockScore> scores = sandwich.scores(edge_m);
-    const double count = blocks_of_scan(scores);
-    if (count < static_cast<double>(options.min_blocks_of_scan)) break;
-    const double ratio = count / (count - 6) * sandwich.variance_ratio(scores);  // six unknowns went into the fit
-    if (ratio <= largest) continue;
-    largest = ratio;
-    out.block_m = edge_m;
-    best = std::move(scores);
+  std::vector<ScoreScatter> scatters{sandwich.scatter(options.smallest_block_m)};
+  std::vector<double> edges_m{options.smallest_block_m};
+  while (true) {
+    const double edge_m = 2 * edges_m.back();
+    ScoreScatter scatter = sandwich.scatter(edge_m);
+    if (scatter.blocks_of_scan < static_cast<double>(options.min_blocks_of_scan)) break;
+    scatters.push_back(std::move(scatter));
+    edges_m.push_back(edge_m);
   }
-  if (independent > 0) out.correlation_factor = std::sqrt(largest / independent);
+  std::vector<double> ratios = sandwich.variance_ratios(scatters);
+  const double independent = ratios.front();
+  std::size_t best = 0;
+  for (std::size_t k = 1; k < ratios.size(); ++k) {
+    const double blocks = scatters[k].blocks_of_scan;
+    ratios[k] *= blocks / (blocks - 6);  // six unknowns went into the fit
+    if (ratios[k] > ratios[best]) best = k;
+  }
+  out.block_m = edges_m[best];
+  if (independent > 0) out.correlation_factor = std::sqrt(ratios[best] / independent);
   out.disagreement_factor = disagreement(links, kHuberFactor * out.noise_m, out.block_m);
-  const double count = blocks_of_scan(best);
+  const double count = scatters[best].blocks_of_scan;
   const double scale = count > 6 ? count / (count - 6) * out.disagreement_factor * out.disagreement_factor
                                  : std::numeric_limits<double>::infinity();
-  Eigen::MatrixXd covariance = scale * sandwich.covariance(best);
+  const std::vector<Matrix6> covariances = sandwich.covariances(scatters[best]);
   for (std::size_t i = 0; i < frames.size(); ++i) {
     if (i == fixed) {
       out.poses.push_back({frames[i].centre, Matrix6::Zero(), true});
     } else if (matched[i]) {
-      out.poses.push_back(pose_of(scan_block(covariance, i, i), frames[i]));
+      out.poses.push_back(pose_of(scale * covariances[i], frames[i]));
     } else {
       out.poses.push_back({frames[i].centre, PoseUncertainty().covariance, false});
     }
   }
   if (options.keeps_joint) {
+    Eigen::MatrixXd covariance = scale * sandwich.joint_covariance(scatters[best]);
     covariance.middleRows<6>(static_cast<Eigen::Index>(6 * fixed)).setZero();
     covariance.middleCols<6>(static_cast<Eigen::Index>(6 * fixed)).setZero();
     out.joint_covariance_m2 = std::move(covariance);

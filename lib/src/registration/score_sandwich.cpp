@@ -1,33 +1,89 @@
 #include "registration/score_sandwich.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "registration/link_scores.hpp"
 #include "registration/match_blocks.hpp"
+#include "tcm_icp/core/statistics.hpp"
 
 namespace tcm_icp {
+namespace {
+
+// Sums of 6 x 6 blocks, by the two scans.
+class BlockSums {
+ public:
+  Matrix6& at(std::size_t row, std::size_t column) {
+    return blocks_.try_emplace({row, column}, Matrix6::Zero()).first->second;
+  }
+
+  Eigen::SparseMatrix<double> matrix(Eigen::Index size, double diagonal) const {
+    std::vector<Eigen::Triplet<double>> entries;
+    entries.reserve(36 * blocks_.size() + static_cast<std::size_t>(size));
+    for (const auto& [place, block] : blocks_) {
+      for (int i = 0; i < 6; ++i) {
+        for (int j = 0; j < 6; ++j) {
+          entries.emplace_back(static_cast<int>(6 * place.first) + i, static_cast<int>(6 * place.second) + j,
+                               block(i, j));
+        }
+      }
+    }
+    for (int i = 0; i < size; ++i) entries.emplace_back(i, i, diagonal);
+    Eigen::SparseMatrix<double> out(size, size);
+    out.setFromTriplets(entries.begin(), entries.end());
+    return out;
+  }
+
+  double trace() const {
+    double sum = 0;
+    for (const auto& [place, block] : blocks_) sum += place.first == place.second ? block.trace() : 0;
+    return sum;
+  }
+
+ private:
+  std::map<std::pair<std::size_t, std::size_t>, Matrix6> blocks_;
+};
+
+double typical(const std::map<std::size_t, double>& counts) {
+  std::vector<double> values;
+  for (const auto& [scan, count] : counts) values.push_back(count);
+  return values.empty() ? 0 : median(values);
+}
+
+}  // namespace
 
 ScoreSandwich::ScoreSandwich(const std::vector<TwistFrame>& frames, std::size_t fixed,
                              const std::vector<JointLink>& links, double noise_m)
     : frames_(frames), fixed_(fixed), links_(links), noise_m_(noise_m) {
-  const auto size = static_cast<Eigen::Index>(6 * frames.size());
-  Eigen::MatrixXd information = Eigen::MatrixXd::Zero(size, size);
+  BlockSums information;
   for (const auto& link : links) {
-    for (const auto& match : link.matches) add(link, match, information);
+    Matrix6 ss = Matrix6::Zero(), tt = Matrix6::Zero(), st = Matrix6::Zero();
+    for (const auto& match : link.matches) {
+      if (std::abs(residual_m(match)) > kHuberFactor * noise_m_) continue;
+      const Twist s = residual_gradient(match, frames_[link.source]),
+                  t = -residual_gradient(match, frames_[link.target]);
+      ss += s * s.transpose();
+      tt += t * t.transpose();
+      st += s * t.transpose();
+    }
+    if (link.source != fixed_) information.at(link.source, link.source) += ss;
+    if (link.target != fixed_) information.at(link.target, link.target) += tt;
+    if (link.source == fixed_ || link.target == fixed_) continue;
+    information.at(link.source, link.target) += st;
+    information.at(link.target, link.source) += st.transpose();
   }
   // A billionth of the mean curvature: what the matches do not determine comes out as very uncertain, not as an error.
   const double trace = information.trace();
-  damping_ = 1e-9 * (trace > 0 ? trace / static_cast<double>(size) : 1);
-  information.diagonal().array() += damping_;
-  inverse_ = information.llt().solve(Eigen::MatrixXd::Identity(size, size));
+  damping_ = 1e-9 * (trace > 0 ? trace / static_cast<double>(size()) : 1);
+  factors_.compute(information.matrix(size(), damping_));
 }
 
-std::vector<BlockScore> ScoreSandwich::scores(double block_m) const {
-  std::vector<BlockScore> scores;
+ScoreScatter ScoreSandwich::scatter(double block_m) const {
+  BlockSums sums;
+  std::map<std::size_t, double> counts;
   for (const auto& block : blocks_of(links_, block_m)) {
-    BlockScore score;
+    std::map<std::size_t, Twist> score;
     for (const auto& [l, m] : block) {
       const JointLink& link = links_[l];
       const Correspondence& match = link.matches[m];
@@ -35,48 +91,55 @@ std::vector<BlockScore> ScoreSandwich::scores(double block_m) const {
       add(link.source, r * residual_gradient(match, frames_[link.source]), score);
       add(link.target, -r * residual_gradient(match, frames_[link.target]), score);
     }
-    scores.push_back(std::move(score));
-  }
-  return scores;
-}
-
-double ScoreSandwich::variance_ratio(const std::vector<BlockScore>& scores) const {
-  double sum = 0;
-  for (const auto& score : scores) {
     for (const auto& [a, score_a] : score) {
-      for (const auto& [b, score_b] : score) sum += score_a.dot(scan_block(inverse_, a, b) * score_b);
+      ++counts[a];
+      for (const auto& [b, score_b] : score) sums.at(a, b) += score_a * score_b.transpose();
     }
   }
-  return sum;
+  return {sums.matrix(size(), 0), typical(counts)};
 }
 
-Eigen::MatrixXd ScoreSandwich::covariance(const std::vector<BlockScore>& scores) const {
-  Eigen::MatrixXd scatter =
-      noise_m_ * noise_m_ * damping_ * Eigen::MatrixXd::Identity(inverse_.rows(), inverse_.cols());
-  for (const auto& score : scores) {
-    for (const auto& [a, score_a] : score) {
-      for (const auto& [b, score_b] : score) {
-        scatter.block<6, 6>(static_cast<Eigen::Index>(6 * a), static_cast<Eigen::Index>(6 * b)) +=
-            score_a * score_b.transpose();
+// The trace of the inverse times each scatter.
+std::vector<double> ScoreSandwich::variance_ratios(const std::vector<ScoreScatter>& scatters) const {
+  std::vector<double> sums(scatters.size(), 0);
+  for (std::size_t scan = 0; scan < frames_.size(); ++scan) {
+    const Eigen::MatrixXd columns = inverse_columns(scan);
+    for (std::size_t k = 0; k < scatters.size(); ++k) {
+      for (int j = 0; j < 6; ++j) {
+        const auto column = static_cast<Eigen::Index>(6 * scan) + j;
+        for (Eigen::SparseMatrix<double>::InnerIterator entry(scatters[k].matrix, column); entry; ++entry) {
+          sums[k] += entry.value() * columns(entry.row(), j);
+        }
       }
     }
   }
-  return inverse_ * scatter * inverse_;
+  return sums;
 }
 
-void ScoreSandwich::add(std::size_t scan, const Twist& part, BlockScore& score) const {
+std::vector<Matrix6> ScoreSandwich::covariances(const ScoreScatter& scatter) const {
+  std::vector<Matrix6> out;
+  const double floor_m2 = noise_m_ * noise_m_ * damping_;
+  for (std::size_t scan = 0; scan < frames_.size(); ++scan) {
+    const Eigen::MatrixXd columns = inverse_columns(scan);
+    out.emplace_back(columns.transpose() * (scatter.matrix * columns) + floor_m2 * columns.transpose() * columns);
+  }
+  return out;
+}
+
+Eigen::MatrixXd ScoreSandwich::joint_covariance(const ScoreScatter& scatter) const {
+  const Eigen::MatrixXd inverse = factors_.solve(Eigen::MatrixXd::Identity(size(), size()));
+  return inverse.transpose() * (scatter.matrix * inverse) +
+         noise_m_ * noise_m_ * damping_ * inverse.transpose() * inverse;
+}
+
+Eigen::MatrixXd ScoreSandwich::inverse_columns(std::size_t scan) const {
+  Eigen::MatrixXd unit = Eigen::MatrixXd::Zero(size(), 6);
+  unit.middleRows<6>(static_cast<Eigen::Index>(6 * scan)).setIdentity();
+  return factors_.solve(unit);
+}
+
+void ScoreSandwich::add(std::size_t scan, const Twist& part, std::map<std::size_t, Twist>& score) const {
   if (scan != fixed_) score.try_emplace(scan, Twist::Zero()).first->second += part;
-}
-
-void ScoreSandwich::add(const JointLink& link, const Correspondence& match, Eigen::MatrixXd& information) const {
-  if (std::abs(residual_m(match)) > kHuberFactor * noise_m_) return;
-  const Twist s = residual_gradient(match, frames_[link.source]), t = -residual_gradient(match, frames_[link.target]);
-  const auto at_s = static_cast<Eigen::Index>(6 * link.source), at_t = static_cast<Eigen::Index>(6 * link.target);
-  if (link.source != fixed_) information.block<6, 6>(at_s, at_s) += s * s.transpose();
-  if (link.target != fixed_) information.block<6, 6>(at_t, at_t) += t * t.transpose();
-  if (link.source == fixed_ || link.target == fixed_) return;
-  information.block<6, 6>(at_s, at_t) += s * t.transpose();
-  information.block<6, 6>(at_t, at_s) += t * s.transpose();
 }
 
 }  // namespace tcm_icp

@@ -1,7 +1,10 @@
 #pragma once
-// Covariance of Huber's joint estimate: its curvature on both sides of the scatter of its scores.
+// Covariance of Huber's joint estimate: its curvature on both sides of the scatter of its scores. Both are sparse:
+// scans that share no matches share no entries.
 
 #include <Eigen/Core>
+#include <Eigen/SparseCholesky>
+#include <Eigen/SparseCore>
 #include <map>
 #include <vector>
 
@@ -10,13 +13,11 @@
 
 namespace tcm_icp {
 
-/// Score of one block of matches: six numbers for each scan it has matches of.
-using BlockScore = std::map<std::size_t, Twist>;
-
-/// The 6 x 6 block of two scans.
-inline Matrix6 scan_block(const Eigen::MatrixXd& matrix, std::size_t a, std::size_t b) {
-  return matrix.block<6, 6>(static_cast<Eigen::Index>(6 * a), static_cast<Eigen::Index>(6 * b));
-}
+/// Sum over blocks of matches of the outer products of their scores.
+struct ScoreScatter {
+  Eigen::SparseMatrix<double> matrix;  ///< 6 n x 6 n
+  double blocks_of_scan = 0;           ///< that the typical scan has matches in
+};
 
 /// Keeps references: frames and links must outlive it.
 class ScoreSandwich {
@@ -27,23 +28,29 @@ class ScoreSandwich {
                 double noise_m);
 
   /// Of the matches in each cube of that edge, without the fixed scan's part.
-  std::vector<BlockScore> scores(double block_m) const;
+  ScoreScatter scatter(double block_m) const;
 
-  /// Sum over all unknowns of the variance by the blocks' scatter, in units of what one unit of noise would give.
-  double variance_ratio(const std::vector<BlockScore>& scores) const;
+  /// For each scatter, the sum over all unknowns of the variance by it, in units of what one unit of noise would give.
+  /// A solution with six right sides for each scan.
+  std::vector<double> variance_ratios(const std::vector<ScoreScatter>& scatters) const;
 
-  /// Of all scans' steps [m^2]. Very large where the matches do not determine a step.
-  Eigen::MatrixXd covariance(const std::vector<BlockScore>& scores) const;
+  /// Of each scan's step [m^2]. Very large where the matches do not determine it. As many solutions.
+  std::vector<Matrix6> covariances(const ScoreScatter& scatter) const;
+
+  /// Of all scans' steps together [m^2], 6 n x 6 n. O(n^3).
+  Eigen::MatrixXd joint_covariance(const ScoreScatter& scatter) const;
 
  private:
-  void add(std::size_t scan, const Twist& part, BlockScore& score) const;
-  void add(const JointLink& link, const Correspondence& match, Eigen::MatrixXd& information) const;
+  /// Columns of the inverse that belong to a scan, 6 n x 6.
+  Eigen::MatrixXd inverse_columns(std::size_t scan) const;
+  void add(std::size_t scan, const Twist& part, std::map<std::size_t, Twist>& score) const;
+  Eigen::Index size() const { return static_cast<Eigen::Index>(6 * frames_.size()); }
 
   const std::vector<TwistFrame>& frames_;
   std::size_t fixed_;
   const std::vector<JointLink>& links_;
   double noise_m_, damping_ = 0;
-  Eigen::MatrixXd inverse_;
+  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors_;
 };
 
 }  // namespace tcm_icp

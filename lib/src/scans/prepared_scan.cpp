@@ -1,6 +1,7 @@
 #include "scans/prepared_scan.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/pick.hpp"
 #include "tcm_icp/core/parallel.hpp"
@@ -42,6 +43,21 @@ void draw_fit_and_held_out(const Cloud& cloud, const SampleSizes& options, std::
 
 }  // namespace
 
+Ball::Ball(const Points& points) {
+  if (points.empty()) return;
+  Eigen::AlignedBox3d box;
+  for (const auto& p : points) box.extend(p);
+  centre = box.center();
+  double squared_m2 = 0;
+  for (const auto& p : points) squared_m2 = std::max(squared_m2, (p - centre).squaredNorm());
+  radius_m = std::sqrt(squared_m2);
+}
+
+bool may_meet(const PreparedScan& a, const PreparedScan& b, const Eigen::Isometry3d& T_a_b, double distance_m) {
+  const double reach_m = a.ball.radius_m + b.ball.radius_m + distance_m;
+  return (T_a_b * b.ball.centre - a.ball.centre).squaredNorm() <= reach_m * reach_m;
+}
+
 Resolutions choose_resolutions(const std::vector<SampledScan>& scans, const SamplingOptions& options, int num_threads) {
   std::vector<double> coarse(scans.size()), fine(scans.size());
   parallel_for(num_threads, scans.size(), [&](std::size_t begin, std::size_t end) {
@@ -74,6 +90,8 @@ PreparedScan prepare_scan(const SampledScan& scan, const Resolutions& resolution
                    {},
                    {},
                    {},
+                   {},
+                   {},
                    {}};
   const std::string key = stream_key(scan.scan);
   out.coarse_sample =
@@ -82,6 +100,7 @@ PreparedScan prepare_scan(const SampledScan& scan, const Resolutions& resolution
   out.moments = out.held_out_sample.points;
   out.fine_sample = draw(out.fine.cloud, options.fine_points, seed, "fine points", key);
   out.key = key;
+  out.ball = Ball(scan.scan.cloud.points);
   out.tcm_points = out.pyramid.level(std::min<std::size_t>(1, kNumPyramidLevels - 1)).cloud.points;
   return out;
 }

@@ -24,6 +24,15 @@ struct Resolutions {
   double fine_m = 0;    ///< and adjusted with
 };
 
+/// Holds a cloud's points, and so the means of any of them.
+struct Ball {
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< [m]
+  double radius_m = 0;
+
+  Ball() = default;
+  explicit Ball(const Points& points);
+};
+
 struct PreparedScan {
   ScanPyramid pyramid;    ///< from the coarse voxel upwards; surface normals
   PyramidLevel fine;      ///< fine voxel; surface normals
@@ -34,6 +43,7 @@ struct PreparedScan {
   Cloud fine_sample;      ///< surfaces at the fine voxel, for the adjustment
   Points tcm_points;      ///< thinned to the pyramid's second level
   std::string key;        ///< of random numbers: stream_key()
+  Ball ball;              ///< all its points lie in it
   Sight sight{};          ///< none until make_sights(); groups of scans have none
 };
 
@@ -42,6 +52,9 @@ Resolutions choose_resolutions(const std::vector<SampledScan>& scans, const Samp
 
 PreparedScan prepare_scan(const SampledScan& scan, const Resolutions& resolutions, const SampleSizes& options,
                           std::uint64_t seed);
+
+/// Whether points of the two may lie within `distance_m` of one another at all: what costs nothing to rule out.
+bool may_meet(const PreparedScan& a, const PreparedScan& b, const Eigen::Isometry3d& T_a_b, double distance_m);
 
 /// Levels of every pyramid: gates up to 32 coarse voxels are served at a fitting resolution.
 constexpr std::size_t kNumPyramidLevels = 4;

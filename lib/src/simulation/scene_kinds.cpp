@@ -81,8 +81,8 @@ SceneSetOptions default_bays(SceneSetOptions options) {
 }  // namespace
 
 std::vector<SceneKind> scene_kinds() {
-  return {SceneKind::kTown,   SceneKind::kBlock,    SceneKind::kStreet, SceneKind::kUrban,
-          SceneKind::kCanopy, SceneKind::kInterior, SceneKind::kPlaza,  SceneKind::kBays};
+  return {SceneKind::kTown,     SceneKind::kBlock, SceneKind::kStreet, SceneKind::kUrban,   SceneKind::kCanopy,
+          SceneKind::kInterior, SceneKind::kPlaza, SceneKind::kBays,   SceneKind::kTownGrid};
 }
 
 SceneKind scene_kind_from_name(const std::string& name) {
@@ -112,6 +112,8 @@ std::string scene_name(SceneKind kind) {
       return "plaza";
     case SceneKind::kBays:
       return "bays";
+    case SceneKind::kTownGrid:
+      return "town-grid";
   }
   throw InvalidOptions("simulate: unknown scene");
 }
@@ -137,6 +139,10 @@ SceneSetOptions default_scene_set(SceneKind kind) {
       return options;
     case SceneKind::kBays:
       return default_bays(options);
+    case SceneKind::kTownGrid:
+      options = default_block(options);
+      options.num_scans = 60;
+      return options;
   }
   throw InvalidOptions("simulate: unknown scene");
 }

@@ -65,6 +65,8 @@ Scene make_scene(const SceneSetOptions& options, std::uint64_t seed) {
       bays.path_length_m = std::max(8.0, needed_m);
       return make_bays_scene(bays, rng);
     }
+    case SceneKind::kTownGrid:
+      return make_town_grid_scene({std::max(400.0, needed_m)}, rng);
   }
   throw InvalidOptions("simulate: unknown scene");
 }
@@ -87,6 +89,14 @@ void require_room(const SceneSetOptions& options, const Scene& scene) {
                        std::to_string(options.station_spacing_m) + " m apart, and the path of " +
                        scene_name(options.scene) + " is only " + std::to_string(length_m) +
                        " m long; ask for fewer scans or more overlap");
+}
+
+/// How far errors add up: along a path, but across a town whose streets meet everywhere.
+double drifting_way_m(SceneKind scene, const Points& path) {
+  if (scene != SceneKind::kTownGrid) return path_length_m(path);
+  Eigen::AlignedBox3d town;
+  for (const auto& p : path) town.extend(p);
+  return town.diagonal().norm();
 }
 
 /// Scan `index` and its truth. Each scan draws from its own stream: the others do not depend on it.
@@ -139,7 +149,7 @@ SceneSet simulate_scene_set(const SceneSetOptions& options, const RunContext& co
   set.scene = make_scene(set.options, context.seed);
   require_room(set.options, set.scene);
   set.truth.tolerance = options.tolerance;
-  set.truth.tolerance.rmse_m += options.drift_share * path_length_m(set.scene.path);
+  set.truth.tolerance.rmse_m += options.drift_share * drifting_way_m(options.scene, set.scene.path);
   // A scan bent by motion has no one pose: its ends lie half the way of a turn from where its middle says.
   if (options.scanner.sensor != SensorKind::kAerial)
     set.truth.tolerance.rmse_m += std::abs(options.scanner.speed_m_s) / options.scanner.turns_per_s / 2;

@@ -12,6 +12,12 @@ Eigen::Matrix2d axes(const Footprint& f) {
   return out;
 }
 
+/// Too far apart to touch, however they are turned: most are, in a town.
+bool far_apart(const Footprint& a, const Footprint& b) {
+  const double reach = a.half_size_m.norm() + b.half_size_m.norm();
+  return (a.centre - b.centre).squaredNorm() > reach * reach;
+}
+
 /// True where an edge direction of `a` is a line between the two.
 bool separated_by_axes_of(const Footprint& a, const Footprint& b) {
   const Eigen::Matrix2d b_in_a = axes(a).transpose() * axes(b);
@@ -23,7 +29,7 @@ bool separated_by_axes_of(const Footprint& a, const Footprint& b) {
 }  // namespace
 
 bool overlap(const Footprint& a, const Footprint& b) {
-  return !separated_by_axes_of(a, b) && !separated_by_axes_of(b, a);
+  return !far_apart(a, b) && !separated_by_axes_of(a, b) && !separated_by_axes_of(b, a);
 }
 
 bool SitePlan::is_free(const Footprint& footprint, double margin_m) const {

@@ -56,6 +56,7 @@ void StreetBuilder::lay_kerbs() {
     for (const double side : {-1.0, 1.0}) {
       if (uniform01(rng_) < 0.1) continue;  // a drive
       const Footprint stone = site(side, s, {0.5, 0.15}, half_road_m_ - 0.3);
+      if (!plan_.is_free(stone, 0)) continue;  // another street's lanes
       add_box(scene_.mesh, standing(stone), Eigen::AlignedBox3d(Vector3d(-0.5, -0.15, -0.3), Vector3d(0.5, 0.15, 0.14)),
               0.55);
     }

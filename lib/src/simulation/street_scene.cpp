@@ -1,4 +1,4 @@
-// The middle lines of simulated streets: a winding one, one around a corner, and one around a block.
+// The middle lines of simulated streets: a winding one, one around a corner, one around a block, and all of a town.
 
 #include <cmath>
 #include <string>
@@ -14,10 +14,10 @@ namespace {
 
 using Eigen::Vector3d;
 
-void require_length(const std::string& field, double value, double least) {
-  if (!(value >= least && value <= 20000)) {
-    throw InvalidOptions(field + " = " + std::to_string(value) + "; needs " + std::to_string(static_cast<int>(least)) +
-                         "..20000");
+void require_length(const std::string& field, double value, int least, int most = 20000) {
+  if (!(value >= least && value <= most)) {
+    throw InvalidOptions(field + " = " + std::to_string(value) + "; needs " + std::to_string(least) + ".." +
+                         std::to_string(most));
   }
 }
 
@@ -40,6 +40,8 @@ void StreetOptions::validate() const { require_length("street: length_m", length
 void UrbanOptions::validate() const { require_length("urban: length_m", length_m, 40); }
 
 void BlockOptions::validate() const { require_length("block: perimeter_m", perimeter_m, 120); }
+
+void TownGridOptions::validate() const { require_length("town-grid: length_m", length_m, 400, 50000); }
 
 Scene make_street_scene(const StreetOptions& options, Rng& rng) {
   options.validate();
@@ -86,6 +88,37 @@ Scene make_block_scene(const BlockOptions& options, Rng& rng) {
     path.push_back({x * longer / 2 + dx, y * shorter / 2 + dy, 0});
   }
   path.push_back(path.front());
+  return StreetBuilder(path, rng).build();
+}
+
+Scene make_town_grid_scene(const TownGridOptions& options, Rng& rng) {
+  options.validate();
+  // From corner to corner of every street along, then of every street across: 2 m (m - 1) blocks' edges, and the ways
+  // from one street to the next along the border.
+  constexpr double kLeastEdge_m = 70, kBend = 0.06;
+  const auto num_edges = [](int m) { return 2 * m * (m - 1) + 2 * (m - 1); };
+  int streets = 2;
+  while (num_edges(streets + 1) * kLeastEdge_m <= options.length_m) ++streets;
+  const double edge_m = options.length_m / num_edges(streets);
+  std::vector<Vector3d> corners;
+  for (int k = 0; k < streets * streets; ++k) {
+    const double dx = uniform(rng, -kBend, kBend), dy = uniform(rng, -kBend, kBend);
+    corners.push_back(edge_m * Vector3d(k % streets + dx, k / streets + dy, 0));
+  }
+  const auto corner = [&](int x, int y) { return corners[static_cast<std::size_t>(y * streets + x)]; };
+  Points path;
+  for (int y = 0; y < streets; ++y) {
+    for (int x = 0; x < streets; ++x) path.push_back(corner(y % 2 == 0 ? x : streets - 1 - x, y));
+  }
+  // Streets across begin where those along ended.
+  const bool ends_right = streets % 2 == 1;
+  for (int x = 0; x < streets; ++x) {
+    for (int y = 0; y < streets; ++y) {
+      const int column = ends_right ? streets - 1 - x : x;
+      path.push_back(corner(column, x % 2 == 0 ? streets - 1 - y : y));
+    }
+  }
+  path.erase(path.begin() + streets * streets);  // where those along ended: the same corner
   return StreetBuilder(path, rng).build();
 }
 

@@ -51,7 +51,8 @@ struct PoseCovarianceOptions {
 /// Errors that all links of a scan share (a scale error, a scan bent by motion the same way in each) show in neither.
 /// @param frames  of each scan, at its present pose
 /// @throws InvalidOptions, InvalidInput  if a link names a scan there is none of
-/// Cost: O(n^3) in the number of scans, O(N log N) in that of matches, for each of a few edges. Thread-safe.
+/// Cost: a sparse factorization and two solutions for each scan; O(N log N) in the number of matches for each of a few
+/// edges; O(n^3) in the number of scans where the joint covariance is kept. Thread-safe.
 JointUncertainty estimate_uncertainty(const std::vector<TwistFrame>& frames, std::size_t fixed,
                                       const std::vector<JointLink>& links, const PoseCovarianceOptions& options);
 

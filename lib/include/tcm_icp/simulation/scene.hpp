@@ -103,6 +103,16 @@ struct BlockOptions {
 /// @throws InvalidOptions
 Scene make_block_scene(const BlockOptions& options, Rng& rng);
 
+struct TownGridOptions {
+  double length_m = 840;  ///< [m] 400..50000, of all streets together
+  void validate() const;  ///< throws InvalidOptions
+};
+
+/// As many streets along as across, 70 m or more apart, none quite straight. The path leads along every street, so that
+/// stations of crossing streets see one another: loops everywhere, and no station sees more than a few others.
+/// @throws InvalidOptions
+Scene make_town_grid_scene(const TownGridOptions& options, Rng& rng);
+
 /// The point at `distance_m` along a polyline and the direction there [rad]; the ends where the distance is beyond
 /// them.
 struct PathPoint {

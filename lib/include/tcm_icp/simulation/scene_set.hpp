@@ -22,11 +22,12 @@ enum class SceneKind {
   kCanopy,    ///< a lake shore with many small things, under an open tree canopy
   kInterior,  ///< rooms and a corridor
   kPlaza,     ///< a square before a symmetric building
-  kBays       ///< a large building with columns: a place that repeats itself
+  kBays,      ///< a large building with columns: a place that repeats itself
+  kTownGrid   ///< all streets of a town of several blocks: loops, and few neighbours for each scan
 };
 
-/// "town", "block", "street", "urban", "canopy", "interior", "plaza", "bays"; @throws InvalidOptions  naming the scenes
-/// there are
+/// "town", "block", "street", "urban", "canopy", "interior", "plaza", "bays", "town-grid"; @throws InvalidOptions
+/// naming the scenes there are
 SceneKind scene_kind_from_name(const std::string& name);
 std::string scene_name(SceneKind kind);
 std::vector<SceneKind> scene_kinds();
@@ -45,13 +46,14 @@ struct SceneSetOptions {
   double max_shift_m = 40;        ///< [m] >= 0; ... and its origin lies up to this from the scanner
   Tolerance tolerance{0.5, 0.05};  ///< what truth.json asks of a pose, with half the way of a turn where scans are bent
                                    ///< by motion, ...
-  double drift_share = 0;  ///< 0..0.01; ... with this share of the path's length added to the distance: errors add up
+  double drift_share = 0;  ///< 0..0.01; ... with this share of the path's length (of town-grid, the town's) added to
+                           ///< the distance: errors add up
   std::optional<PosePerturbation> initial_guess;  ///< poses to start from are made, too
   void validate() const;                          ///< throws InvalidOptions
 };
 
 /// What suits a scene: its sensor, number of scans, spacing and tolerance. Tolerances of block and street grow with the
-/// path's length.
+/// path's length, those of town-grid with the town's.
 SceneSetOptions default_scene_set(SceneKind kind);
 
 /// Another sensor in that scene, with its own defaults, height and tolerance. The scene's own sensor changes nothing.

@@ -1,0 +1,45 @@
+#pragma once
+// The part of S, the cloud of all scans merged so far, that a scan can meet.
+
+#include <cstddef>
+#include <vector>
+
+#include "inference/compared_pairs.hpp"
+#include "scans/prepared_scan.hpp"
+#include "tcm_icp/registration/scan_pyramid.hpp"
+
+namespace tcm_icp {
+
+/// S as the scans that make it up. What lies near a scan is put together from those that overlap with it most, so that
+/// a merge costs the same in a set of ten as in one of a thousand.
+class MergedScans {
+ public:
+  /// Keeps references: all three must outlive it. Poses of the component may change until their scan is merged.
+  MergedScans(const std::vector<PreparedScan>& scans, const PairGraph& graph, const Component& component);
+
+  /// From now on at its pose in the component. Returns the members whose part of S is another one now.
+  std::vector<std::size_t> add(std::size_t scan);
+
+  bool has(std::size_t scan) const { return merged_[scan]; }
+  /// Whether a hypothesis that holds joins the scan to what is merged.
+  bool joins(std::size_t scan) const { return !neighbors_[scan].empty(); }
+
+  /// What is merged near a member, in the reference's frame; thread-safe. Of those that nothing joins, what is nearest.
+  PyramidLevel near(std::size_t scan, std::size_t level) const;
+  ScanPyramid near(std::size_t scan) const;
+
+ private:
+  struct Neighbor {
+    double overlap;
+    std::size_t scan;
+  };
+  std::vector<std::size_t> neighbors_of(std::size_t scan) const;
+
+  const std::vector<PreparedScan>& scans_;
+  const PairGraph& graph_;
+  const Component& component_;
+  std::vector<bool> merged_;
+  std::vector<std::vector<Neighbor>> neighbors_;  ///< merged ones of each scan, the most overlapping first
+};
+
+}  // namespace tcm_icp
