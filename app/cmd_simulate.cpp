@@ -70,12 +70,11 @@ po::options_description describe_frames(SceneSetOptions& s) {
 po::options_description describe(Request& r) {
   SceneSetOptions& s = r.scenes;
   po::options_description what("What to simulate", 110);
-  what
-      .add_options()(
-          "scene", bind_option(&r.scene),
-          "town, block (a closed loop), street (mobile), urban (moving platform), canopy (lake shore), interior, "
-          "plaza, bays (a building that repeats itself) or town-grid (all streets of a town); each has defaults of its "
-          "own")                                                                         //
+  what.add_options()(
+      "scene", bind_option(&r.scene),
+      "town, block (a closed loop), street (mobile), urban (moving platform), canopy (lake shore), interior, "
+      "plaza, bays (a building that repeats itself) or town-grid (all streets of a town); each has defaults of its "
+      "own")                                                                             //
       ("scans", bind_option(&s.num_scans), "number of stations along the scene's path")  //
       ("spacing", bind_option(&s.station_spacing_m),
        "[m] between stations; those of town and plaza share out their path")  //

@@ -21,7 +21,8 @@ class ImpliedPosesTest : public ::testing::Test {
  protected:
   // Those that no hypothesis leads to.
   std::vector<ImpliedPose> implied(const Component& component) const {
-    std::vector<ImpliedPose> found = implied_poses(world_.graph(), component, kClearLead, everywhere);
+    std::vector<ImpliedPose> found =
+        implied_poses(world_.graph(), component, weakest_cuts(world_.graph(), component), kClearLead, everywhere);
     std::erase_if(found, [](const ImpliedPose& pose) { return pose.agrees; });
     return found;
   }
@@ -46,7 +47,9 @@ TEST_F(ImpliedPosesTest, PairsWithoutAHypothesisThatAgreesHaveThePoseOfTheirScan
   }
   std::sort(pairs.begin(), pairs.end());
   EXPECT_EQ(pairs, (std::vector<std::pair<std::size_t, std::size_t>>{{0, 2}, {0, 3}, {1, 3}, {2, 3}}));
-  const auto all = implied_poses(world_.graph(), world_.truth({2, 0, 1, 3}), kClearLead, everywhere);
+  const Component component = world_.truth({2, 0, 1, 3});
+  const auto all =
+      implied_poses(world_.graph(), component, weakest_cuts(world_.graph(), component), kClearLead, everywhere);
   EXPECT_EQ(std::count_if(all.begin(), all.end(), [](const ImpliedPose& p) { return p.configuration == 0; }), 6)
       << "those that agree are named, too";
 }
@@ -54,7 +57,9 @@ TEST_F(ImpliedPosesTest, PairsWithoutAHypothesisThatAgreesHaveThePoseOfTheirScan
 TEST_F(ImpliedPosesTest, PosesAtWhichScansCannotOverlapAreLeftOut) {
   world_.add(0, 1, {world_.hypothesis(0, 1, 8)});
   const auto without_two = [](std::size_t a, std::size_t b, const Eigen::Isometry3d&) { return a != 2 && b != 2; };
-  const auto found = implied_poses(world_.graph(), world_.truth({0, 1, 2, 3}), kClearLead, without_two);
+  const Component component = world_.truth({0, 1, 2, 3});
+  const auto found =
+      implied_poses(world_.graph(), component, weakest_cuts(world_.graph(), component), kClearLead, without_two);
   ASSERT_EQ(found.size(), 3u);
   for (const ImpliedPose& pose : found) EXPECT_TRUE(pose.a != 2 && pose.b != 2);
 }

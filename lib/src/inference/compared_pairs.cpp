@@ -1,6 +1,5 @@
 #include "inference/compared_pairs.hpp"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 
@@ -52,7 +51,8 @@ PairGraph::PairGraph(std::vector<ComparedPair> pairs, std::vector<PointMoments> 
 
 Agreement PairGraph::agreement(const ComparedPair& pair, const Eigen::Isometry3d& T_a,
                                const Eigen::Isometry3d& T_b) const {
-  const Eigen::Vector3d mean = T_a.inverse() * (T_b * moments_[pair.b].mean);
+  const Eigen::Vector3d mean =
+      T_a.linear().transpose() * (T_b * moments_[pair.b].mean - T_a.translation());  // of b in a's frame
   Agreement best;
   for (const PoseHypothesis& h : pair.hypotheses) {
     if ((h.mean - mean).squaredNorm() >= same_m_ * same_m_) continue;  // points are farther apart than their mean
@@ -103,38 +103,26 @@ Eigen::Isometry3d PairGraph::mean_pose(std::size_t scan, const Eigen::Isometry3d
     turned += says.pull * pose.linear() * spread;
   }
   if (sum <= 0) return T;
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(turned, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const Eigen::Matrix3d &U = svd.matrixU(), &V = svd.matrixV();
-  const Eigen::Vector3d signs(1, 1, (U * V.transpose()).determinant() < 0 ? -1 : 1);
   Eigen::Isometry3d mean = Eigen::Isometry3d::Identity();
-  mean.linear() = U * signs.asDiagonal() * V.transpose();
+  mean.linear() = project_onto_so3(turned);
   mean.translation() = centre / sum - mean.linear() * points.mean;
   return mean;
 }
 
-std::vector<Eigen::Isometry3d> PairGraph::poses_of(std::size_t scan, const Component& component) const {
-  std::vector<Eigen::Isometry3d> out;
-  Points means;  // of the scan's points at those poses
-  const double known_m = same_m_ / 8;
-  for (const std::size_t k : pairs_of(scan)) {
-    const ComparedPair& pair = pairs_[k];
-    const std::size_t other = pair.a == scan ? pair.b : pair.a;
-    if (!component.has(other)) continue;
-    for (const PoseHypothesis& h : pair.hypotheses) {
-      const Eigen::Isometry3d T = *component.T_reference_scan[other] * (pair.a == scan ? h.T_a_b.inverse() : h.T_a_b);
-      const Eigen::Vector3d mean = T * moments_[scan].mean;
-      bool known = false;
-      for (std::size_t i = 0; i < out.size() && !known; ++i) {
-        // Points are farther apart than their mean.
-        known = (means[i] - mean).squaredNorm() < known_m * known_m &&
-                rms_displacement(out[i].inverse() * T, moments_[scan]) < known_m;
-      }
-      if (known) continue;
-      out.push_back(T);
-      means.push_back(mean);
-    }
+void PairGraph::add_poses(std::size_t scan, const ComparedPair& pair, const Component& component,
+                          std::vector<Eigen::Isometry3d>& known) const {
+  const double near_m = same_m_ / 8;
+  const Eigen::Isometry3d& T_other = *component.T_reference_scan[pair.a == scan ? pair.b : pair.a];
+  for (const PoseHypothesis& h : pair.hypotheses) {
+    const Eigen::Isometry3d T = T_other * (pair.a == scan ? h.T_a_b.inverse() : h.T_a_b);
+    const Eigen::Vector3d mean = T * moments_[scan].mean;
+    const bool is_known = std::any_of(known.begin(), known.end(), [&](const Eigen::Isometry3d& U) {
+      // Points are farther apart than their mean.
+      return (U * moments_[scan].mean - mean).squaredNorm() < near_m * near_m &&
+             rms_displacement(U.inverse() * T, moments_[scan]) < near_m;
+    });
+    if (!is_known) known.push_back(T);
   }
-  return out;
 }
 
 }  // namespace tcm_icp

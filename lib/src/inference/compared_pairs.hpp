@@ -91,8 +91,9 @@ class PairGraph {
   /// pulls. T where none agrees.
   Eigen::Isometry3d mean_pose(std::size_t scan, const Eigen::Isometry3d& T, const Component& component) const;
 
-  /// Poses of `scan` that hypotheses of its pairs with members lead to, each once, in the order of the pairs.
-  std::vector<Eigen::Isometry3d> poses_of(std::size_t scan, const Component& component) const;
+  /// Adds the poses of `scan` that the hypotheses of its pair with a member lead to, but for those that are known.
+  void add_poses(std::size_t scan, const ComparedPair& pair, const Component& component,
+                 std::vector<Eigen::Isometry3d>& known) const;
 
  private:
   std::vector<ComparedPair> pairs_;

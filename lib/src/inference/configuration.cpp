@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "inference/cuts.hpp"
+#include "inference/places.hpp"
 
 namespace tcm_icp {
 namespace {
@@ -17,41 +18,33 @@ struct Start {
   const PoseHypothesis* hypothesis;
 };
 
-struct Place {
-  double support = 0;
-  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
-};
-
-std::optional<Place> best_place(const PairGraph& graph, std::size_t scan, const Component& component) {
-  std::optional<Place> best;
-  for (const Eigen::Isometry3d& led_to : graph.poses_of(scan, component)) {
-    for (const Eigen::Isometry3d& T : {led_to, graph.mean_pose(scan, led_to, component)}) {
-      const double support = graph.support_of(scan, T, component);
-      if (!best || support > best->support + kLeastGain) best = Place{support, T};
-    }
-  }
-  return best;
-}
-
 // Scan by scan, the best supported next.
 void grow(const PairGraph& graph, const std::vector<bool>& open, Component& component) {
-  std::vector<std::optional<Place>> places(graph.num_scans());
+  const std::size_t n = graph.num_scans();
+  std::vector<std::optional<Places>> places(n);
+  std::vector<std::optional<Place>> best(n);
   const auto look_around = [&](std::size_t scan) {
     for (const std::size_t k : graph.pairs_of(scan)) {
       const ComparedPair& pair = graph.pairs()[k];
       const std::size_t other = pair.a == scan ? pair.b : pair.a;
-      if (open[other] && !component.has(other)) places[other] = best_place(graph, other, component);
+      if (!open[other] || component.has(other)) continue;
+      places[other]->add(pair, component);
+      best[other] = places[other]->best(component);
     }
   };
-  for (const std::size_t i : component.members()) look_around(i);
+  for (std::size_t i = 0; i < n; ++i) {
+    if (!open[i] || component.has(i)) continue;
+    places[i] = Places::beside(graph, i, component);
+    best[i] = places[i]->best(component);
+  }
   while (true) {
     std::optional<std::size_t> next;
-    for (std::size_t i = 0; i < places.size(); ++i) {
-      if (component.has(i) || !places[i] || places[i]->support <= 0) continue;
-      if (!next || places[i]->support > places[*next]->support + kLeastGain) next = i;
+    for (std::size_t i = 0; i < n; ++i) {
+      if (component.has(i) || !best[i] || best[i]->support <= 0) continue;
+      if (!next || best[i]->support > best[*next]->support + kLeastGain) next = i;
     }
     if (!next) return;
-    component.T_reference_scan[*next] = places[*next]->T;
+    component.T_reference_scan[*next] = best[*next]->T;
     look_around(*next);
   }
 }
@@ -64,7 +57,7 @@ bool move_scans(const PairGraph& graph, Component& component) {
     const Eigen::Isometry3d T = *component.T_reference_scan[i];
     component.T_reference_scan[i].reset();
     const double here = graph.support_of(i, T, component);
-    const std::optional<Place> best = best_place(graph, i, component);
+    const std::optional<Place> best = Places::beside(graph, i, component).best(component);
     if (best && best->support > std::max(0.0, here) + kLeastGain) {
       component.T_reference_scan[i] = best->T;
       moved = true;
@@ -112,6 +105,19 @@ bool move_groups(const PairGraph& graph, Component& component) {
     moved = true;
   }
   return moved;
+}
+
+// Parts that the pairs across speak against where they are, and that lie nowhere better, are out: growing hangs a group
+// by the first of its scans, whatever the others say. True where there was one.
+bool drop_contradicted(const PairGraph& graph, Component& component) {
+  bool dropped = false;
+  for (const std::vector<std::size_t>& part : weakest_parts(graph, component)) {
+    if (!std::all_of(part.begin(), part.end(), [&](std::size_t i) { return component.has(i); })) continue;
+    if (measure_cut(graph, component, part).support >= -kLeastGain) continue;
+    for (const std::size_t i : part) component.T_reference_scan[i].reset();
+    dropped = true;
+  }
+  return dropped;
 }
 
 // Members that no support joins to the reference any more are out.
@@ -217,6 +223,7 @@ std::vector<Component> likeliest_components(const PairGraph& graph) {
         grow(graph, open, component);
         if (component.size() <= before) break;
       }
+      while (drop_contradicted(graph, component)) keep_connected(graph, component);
       const double likelihood = log_likelihood(graph, component);
       if (likelihood > most + kLeastGain) most = likelihood, best = component;
       tried.push_back(std::move(component));

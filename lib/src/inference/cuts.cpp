@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <set>
 
 namespace tcm_icp {
@@ -194,7 +195,6 @@ Cut measure_cut(const PairGraph& graph, const Component& component, std::vector<
 }
 
 std::vector<std::size_t> frontier(const PairGraph& graph, const Component& component, const Cut& cut) {
-  const auto is_moved = [&](std::size_t i) { return std::binary_search(cut.moved.begin(), cut.moved.end(), i); };
   const auto& T = component.T_reference_scan;
   std::vector<std::size_t> out;
   for (const std::size_t i : cut.moved) {
@@ -202,18 +202,41 @@ std::vector<std::size_t> frontier(const PairGraph& graph, const Component& compo
     const bool holds = std::any_of(pairs.begin(), pairs.end(), [&](std::size_t k) {
       const ComparedPair& pair = graph.pairs()[k];
       const std::size_t other = pair.a == i ? pair.b : pair.a;
-      return component.has(other) && !is_moved(other) && graph.support(pair, *T[pair.a], *T[pair.b]) > 0;
+      return component.has(other) && !cut.moves(other) && graph.support(pair, *T[pair.a], *T[pair.b]) > 0;
     });
     if (holds) out.push_back(i);
   }
   return out.empty() ? cut.moved : out;
 }
 
+std::vector<std::size_t> clear_groups(const std::vector<Component>& components,
+                                      const std::vector<std::vector<Cut>>& cuts, double clear_lead,
+                                      std::size_t num_scans) {
+  constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+  std::vector<std::size_t> group(num_scans, kNone);
+  std::size_t num_groups = 0;
+  for (std::size_t c = 0; c < components.size(); ++c) {
+    std::map<std::vector<bool>, std::size_t> of_sides;  // which side of each weak cut
+    for (const std::size_t i : components[c].members()) {
+      std::vector<bool> sides;
+      for (const Cut& cut : cuts[c]) {
+        if (cut.lead() < clear_lead) sides.push_back(cut.moves(i));
+      }
+      const auto [known, is_new] = of_sides.try_emplace(std::move(sides), num_groups);
+      if (is_new) ++num_groups;
+      group[i] = known->second;
+    }
+  }
+  for (std::size_t& g : group) {
+    if (g == kNone) g = num_groups++;
+  }
+  return group;
+}
+
 double lead_between(const std::vector<Cut>& cuts, std::size_t a, std::size_t b) {
   double least = std::numeric_limits<double>::infinity();
   for (const Cut& cut : cuts) {
-    const auto moves = [&](std::size_t i) { return std::binary_search(cut.moved.begin(), cut.moved.end(), i); };
-    if (moves(a) != moves(b)) least = std::min(least, cut.lead());
+    if (cut.moves(a) != cut.moves(b)) least = std::min(least, cut.lead());
   }
   return least;
 }

@@ -2,6 +2,7 @@
 // What holds a part of a component to the rest, and where else it could hang.
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <vector>
@@ -17,6 +18,8 @@ struct Cut {
   double other_support = 0;        ///< of the best clearly different motion of the part
   /// That motion in the reference's frame: T_new = motion * T_old. None where no hypothesis leads elsewhere.
   std::optional<Eigen::Isometry3d> other_motion;
+
+  bool moves(std::size_t scan) const { return std::binary_search(moved.begin(), moved.end(), scan); }
 
   /// Log-odds of the poses against the best other place, or against none at all.
   double lead() const { return support - (other_support > 0 ? other_support : 0); }
@@ -36,6 +39,12 @@ std::vector<Cut> weakest_cuts(const PairGraph& graph, const Component& component
 /// Those of the moved that pairs across the cut hold where they are: there, more may be found out. All of them where
 /// none does.
 std::vector<std::size_t> frontier(const PairGraph& graph, const Component& component, const Cut& cut);
+
+/// A number for each scan, the same for those whose poses to one another are clear: members of one component that no
+/// cut with a lead below `clear_lead` parts. `cuts` are the weakest of each component.
+std::vector<std::size_t> clear_groups(const std::vector<Component>& components,
+                                      const std::vector<std::vector<Cut>>& cuts, double clear_lead,
+                                      std::size_t num_scans);
 
 /// The least lead of the cuts between two members.
 double lead_between(const std::vector<Cut>& cuts, std::size_t a, std::size_t b);

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "inference/cuts.hpp"
-
 namespace tcm_icp {
 namespace {
 
@@ -20,7 +18,7 @@ bool agrees(const PairGraph& graph, std::size_t a, std::size_t b, const Eigen::I
 }  // namespace
 
 std::vector<ImpliedPose> implied_poses(
-    const PairGraph& graph, const Component& component, double clear_lead,
+    const PairGraph& graph, const Component& component, const std::vector<Cut>& cuts, double clear_lead,
     const std::function<bool(std::size_t, std::size_t, const Eigen::Isometry3d&)>& may_overlap) {
   std::vector<ImpliedPose> out;
   std::size_t configuration = 0;
@@ -34,13 +32,13 @@ std::vector<ImpliedPose> implied_poses(
       imply(members[i], members[j], T[members[i]]->inverse() * *T[members[j]]);
     }
   }
-  for (const Cut& cut : weakest_cuts(graph, component)) {
+  for (const Cut& cut : cuts) {
     if (!cut.other_motion || cut.lead() >= clear_lead || cut.other_support <= 0) continue;
     ++configuration;
     for (const std::size_t i : cut.moved) {
       const Eigen::Isometry3d T_moved = *cut.other_motion * *T[i];
       for (const std::size_t j : members) {
-        if (std::binary_search(cut.moved.begin(), cut.moved.end(), j)) continue;
+        if (cut.moves(j)) continue;
         if (i < j) {
           imply(i, j, T_moved.inverse() * *T[j]);
         } else {

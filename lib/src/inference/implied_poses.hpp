@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "inference/compared_pairs.hpp"
+#include "inference/cuts.hpp"
 
 namespace tcm_icp {
 
@@ -20,9 +21,10 @@ struct ImpliedPose {
 /// Of every pair of members, its pose in the component; and of pairs across a cut whose lead is below `clear_lead`,
 /// their pose where the cut's other motion puts its part. A place is known by what its pairs show there, the other
 /// place no less than this one: pairs that no search brought there say as much.
+/// @param cuts         weakest_cuts() of the component
 /// @param may_overlap  whether scans a and b can overlap at T_a_b; poses of others are left out
 std::vector<ImpliedPose> implied_poses(
-    const PairGraph& graph, const Component& component, double clear_lead,
+    const PairGraph& graph, const Component& component, const std::vector<Cut>& cuts, double clear_lead,
     const std::function<bool(std::size_t a, std::size_t b, const Eigen::Isometry3d& T_a_b)>& may_overlap);
 
 }  // namespace tcm_icp

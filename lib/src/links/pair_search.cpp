@@ -92,13 +92,15 @@ struct PairSearch::Impl {
     return may_meet(scans[a], scans[b], T_a_b, overlap_distance_m(a));
   }
 
-  /// Pairs of the state wanted, of each wanted scan with its likeliest partners.
-  ScanPairs pairs(Tried state_wanted, const std::vector<bool>& wanted) {
+  /// Pairs of the state wanted, of each wanted scan with its likeliest partners outside its group.
+  ScanPairs pairs(Tried state_wanted, const std::vector<bool>& wanted, const std::vector<std::size_t>& groups) {
     std::vector<bool> chosen(scans.size() * scans.size(), false);
     for (std::size_t i = 0; i < scans.size(); ++i) {
       if (!wanted[i]) continue;
-      for (std::size_t k = 0; k < std::min(reach[i], partners[i].size()); ++k) {
-        const std::size_t j = partners[i][k];
+      std::size_t count = 0;
+      for (const std::size_t j : partners[i]) {
+        if (groups[j] == groups[i]) continue;
+        if (count++ == reach[i]) break;
         chosen[std::min(i, j) * scans.size() + std::max(i, j)] = true;
       }
     }
@@ -318,22 +320,22 @@ bool PairSearch::try_implied(const std::vector<ImpliedPose>& poses, HypothesisSe
   return impl_->try_poses(poses, CoarseMethod::kImplied, kImpliedPartners, set);
 }
 
-bool PairSearch::extend(const std::vector<bool>& wanted, HypothesisSet& set) {
+bool PairSearch::extend(const std::vector<bool>& wanted, const std::vector<std::size_t>& groups, HypothesisSet& set) {
   impl_->rank_partners();
   do {
-    if (const ScanPairs pairs = impl_->pairs(Tried::kNothing, wanted); !pairs.empty()) {
+    if (const ScanPairs pairs = impl_->pairs(Tried::kNothing, wanted, groups); !pairs.empty()) {
       impl_->context.report("comparing height maps", 0, pairs.size());
       impl_->fit(pairs, impl_->by_height_maps(pairs), set);
       for (const auto& [a, b] : pairs) impl_->state(a, b) = Tried::kHeightMaps;
       return true;
     }
-    if (const ScanPairs pairs = impl_->pairs(Tried::kHeightMaps, wanted); !pairs.empty()) {
+    if (const ScanPairs pairs = impl_->pairs(Tried::kHeightMaps, wanted, groups); !pairs.empty()) {
       impl_->context.report("comparing features", 0, pairs.size());
       impl_->fit(pairs, impl_->by_features(pairs), set);
       for (const auto& [a, b] : pairs) impl_->state(a, b) = Tried::kFeatures;
       return true;
     }
-    if (const ScanPairs pairs = impl_->pairs(Tried::kFeatures, wanted); !pairs.empty()) {
+    if (const ScanPairs pairs = impl_->pairs(Tried::kFeatures, wanted, groups); !pairs.empty()) {
       impl_->context.report("comparing along corridors", 0, pairs.size());
       impl_->fit(pairs, impl_->by_slides(pairs), set);
       for (const auto& [a, b] : pairs) impl_->state(a, b) = Tried::kSlides;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <optional>
 #include <sstream>
 #include <string>
@@ -27,6 +28,7 @@ namespace {
 struct Inferred {
   PairGraph graph;
   std::vector<Component> components;
+  std::vector<std::vector<Cut>> cuts;  // the weakest of each component
 };
 
 constexpr int kMaxLearnt = 4;   // rounds: what the set's constant is, and which poses are likeliest with it
@@ -78,11 +80,17 @@ class RobustPipeline {
     const LinkSearchOptions options{in_.options.formulation, in_.options.lp, in_.options.level};
     PairSearch search(scans_, options, in_.context);
     std::vector<bool> wanted(size(), true);
-    while (search.extend(wanted, *hypotheses_)) {
+    std::vector<std::size_t> groups(size());
+    std::iota(groups.begin(), groups.end(), std::size_t{0});
+    while (search.extend(wanted, groups, *hypotheses_)) {
       Inferred now = infer();
       for (int round = 0; round < kMaxImplied && search.try_implied(implied(now, search), *hypotheses_); ++round)
         now = infer();
       wanted = without_clear_place(now);
+      groups = clear_groups(now.components, now.cuts, kLeadToRest, size());
+      in_.context.debug(std::to_string(std::count(wanted.begin(), wanted.end(), true)) + " of " +
+                        std::to_string(size()) + " scans have no clear place; " +
+                        std::to_string(hypotheses_->pairs().size()) + " pairs were compared");
       if (std::count(wanted.begin(), wanted.end(), true) == 0) break;
     }
     search.try_guesses(T_init_, *hypotheses_);  // they place what the search did not
@@ -93,7 +101,9 @@ class RobustPipeline {
       PairGraph graph = hypotheses_->graph(std::vector<bool>(size(), true), in_.options.inference);
       std::vector<Component> components = likeliest_components(graph);
       if (round == kMaxLearnt || !hypotheses_->learn_constant(graph, components)) {
-        return {std::move(graph), std::move(components)};
+        std::vector<std::vector<Cut>> cuts;
+        for (const Component& component : components) cuts.push_back(weakest_cuts(graph, component));
+        return {std::move(graph), std::move(components), std::move(cuts)};
       }
       hypotheses_->score();
     }
@@ -104,22 +114,21 @@ class RobustPipeline {
     const auto may_overlap = [&](std::size_t a, std::size_t b, const Eigen::Isometry3d& T_a_b) {
       return search.may_overlap(a, b, T_a_b);
     };
-    for (const Component& component : now.components) {
-      for (const ImpliedPose& pose : implied_poses(now.graph, component, kLeadToRest, may_overlap)) {
-        out.push_back(pose);
-      }
+    for (std::size_t c = 0; c < now.components.size(); ++c) {
+      const auto poses = implied_poses(now.graph, now.components[c], now.cuts[c], kLeadToRest, may_overlap);
+      out.insert(out.end(), poses.begin(), poses.end());
     }
     return out;
   }
 
   std::vector<bool> without_clear_place(const Inferred& now) const {
-    const auto& [graph, components] = now;
     std::vector<bool> out(size(), true);
-    if (components.empty()) return out;
-    for (const std::size_t i : components.front().members()) out[i] = false;
-    for (const Cut& cut : weakest_cuts(graph, components.front())) {
+    if (now.components.empty()) return out;
+    const Component& largest = now.components.front();
+    for (const std::size_t i : largest.members()) out[i] = false;
+    for (const Cut& cut : now.cuts.front()) {
       if (cut.lead() >= kLeadToRest) continue;
-      for (const std::size_t i : frontier(graph, components.front(), cut)) out[i] = true;
+      for (const std::size_t i : frontier(now.graph, largest, cut)) out[i] = true;
     }
     return out;
   }

@@ -180,7 +180,7 @@ class Settling {
   const Cut* weakest_cut_of(std::size_t scan) const {
     const Cut* weakest = nullptr;
     for (const Cut& cut : cuts_) {
-      if (!std::binary_search(cut.moved.begin(), cut.moved.end(), scan)) continue;
+      if (!cut.moves(scan)) continue;
       if (weakest == nullptr || cut.lead() < weakest->lead()) weakest = &cut;
     }
     return weakest;
@@ -193,10 +193,7 @@ class Settling {
     m.support = weakest->support;
     m.num_moved = weakest->moved.size();
     for (std::size_t k = 0; k < out_.pairs.size(); ++k) {
-      const auto moves = [&](std::size_t i) {
-        return std::binary_search(weakest->moved.begin(), weakest->moved.end(), i);
-      };
-      if (moves(out_.pairs[k].first) == moves(out_.pairs[k].second)) continue;
+      if (weakest->moves(out_.pairs[k].first) == weakest->moves(out_.pairs[k].second)) continue;
       ++m.num_across;
       m.free_space_across += link_measurements_[k].free_space;
     }
