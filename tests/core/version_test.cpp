@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <string>
 
 namespace tcm_icp {
 namespace {
@@ -15,7 +16,8 @@ TEST(Version, NamesEveryLibraryWithANumber) {
     EXPECT_GE(std::count(library.version.begin(), library.version.end(), '.'), 1) << library.name;
     EXPECT_NE(library.version.find_first_of("123456789"), std::string::npos) << library.name;
   }
-  EXPECT_EQ(std::count(version().begin(), version().end(), '.'), 2);
+  const std::string number = version();
+  EXPECT_EQ(std::count(number.begin(), number.end(), '.'), 2);
   EXPECT_FALSE(commit().empty());
 }
 

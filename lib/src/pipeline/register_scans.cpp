@@ -40,6 +40,8 @@ RegisteredScan registered_scan(const PipelineResult& result, std::size_t i) {
     out.reason = result.decisions[i].reason;
     out.probability = result.decisions[i].probability;
   }
+  // Accepted within a group that nothing joins to the reference, or beside scans that were set aside.
+  if (!out.is_registered() && out.reason == Reason::kAccepted) out.reason = Reason::kNoLink;
   if (pose.status == ScanStatus::kReference) {
     out.reason = Reason::kReference;
     out.probability = 1;  // it is where it is by definition

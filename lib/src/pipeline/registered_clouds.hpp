@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "tcm_icp/core/run_context.hpp"
-#include "tcm_icp/io/output_options.hpp"
+#include "tcm_icp/io/registered_cloud_writer.hpp"
 #include "tcm_icp/io/scan_source.hpp"
 #include "tcm_icp/pipeline/pipeline_result.hpp"
 
