@@ -28,6 +28,7 @@ fresh() {
   cp -r tests/install/consumer "$root/work/consumer"
 }
 inside() { chroot "$root" /usr/bin/env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root DEBIAN_FRONTEND=noninteractive "$@"; }
+# Steps are chained: within quiet_step a failing one would not end the function.
 # Names of packages; their files are in /packages, what they need comes from Debian.
 install_packages() {
   local names=()
@@ -38,19 +39,17 @@ install_packages() {
 tools() { inside apt-get -q install --yes --no-install-recommends g++ cmake make pkg-config; }
 
 program() {
-  install_packages libtcm-icp0.1 tcm-icp tcm-icp-doc
-  inside tcm-icp --version
-  inside tcm-icp register /usr/share/doc/tcm_icp/datasets/town --out /work/town
-  test -s "$root/work/town/report.html"
+  install_packages libtcm-icp0.1 tcm-icp tcm-icp-doc && inside tcm-icp --version &&
+    inside tcm-icp register /usr/share/doc/tcm_icp/datasets/town --out /work/town &&
+    test -s "$root/work/town/report.html"
 }
 python() {
-  install_packages libtcm-icp0.1 python3-tcm-icp
-  inside sh -c 'cd /work && python3 /usr/share/doc/tcm_icp/examples/register_arrays.py /usr/share/doc/tcm_icp/datasets/town/*.ply'
+  install_packages libtcm-icp0.1 python3-tcm-icp &&
+    inside sh -c 'cd /work && python3 /usr/share/doc/tcm_icp/examples/register_arrays.py /usr/share/doc/tcm_icp/datasets/town/*.ply'
 }
 find_package() {
-  install_packages libtcm-icp0.1 libtcm-icp-dev
-  tools
-  inside sh -c 'cd /work && cmake -S consumer -B by-cmake -DCMAKE_BUILD_TYPE=Release && cmake --build by-cmake && by-cmake/consumer'
+  install_packages libtcm-icp0.1 libtcm-icp-dev && tools &&
+    inside sh -c 'cd /work && cmake -S consumer -B by-cmake -DCMAKE_BUILD_TYPE=Release && cmake --build by-cmake && by-cmake/consumer'
 }
 pkg_config() {
   # shellcheck disable=SC2016  # the root's own shell asks pkg-config
