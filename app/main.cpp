@@ -11,6 +11,7 @@
 #include "command.hpp"
 #include "suggestion.hpp"
 #include "tcm_icp/core/error.hpp"
+#include "tcm_icp/core/version.hpp"
 #include "version.hpp"
 
 namespace {
@@ -40,6 +41,16 @@ void print_help(std::ostream& out) {
          "            4 output cannot be written; 130 interrupted\n";
 }
 
+void print_version(std::ostream& out) {
+  out << "tcm-icp " << kVersion << "\ncommit " << tcm_icp::commit() << '\n';
+  const char* separator = "built on ";
+  for (const auto& library : tcm_icp::linked_libraries()) {
+    out << separator << library.name << ' ' << library.version;
+    separator = ", ";
+  }
+  out << '\n';
+}
+
 int fail(ExitCode code, std::string_view message) {
   std::cerr << "tcm-icp: " << message << '\n';
   return code;
@@ -62,7 +73,7 @@ int run(int argc, char** argv) {
     return kSuccess;
   }
   if (name == "--version") {
-    std::cout << "tcm-icp " << kVersion << '\n';
+    print_version(std::cout);
     return kSuccess;
   }
   for (const auto& c : kCommands) {

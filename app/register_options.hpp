@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "command.hpp"
-#include "tcm_icp/pipeline/output_options.hpp"
+#include "tcm_icp/io/output_options.hpp"
 #include "tcm_icp/pipeline/pipeline_options.hpp"
 
 namespace tcm_icp::app {

@@ -64,7 +64,7 @@ def register_all(options, folder):
 
 
 def names_of(header, array):
-    text = (ROOT / "lib/include/tcm_icp" / header).read_text()
+    text = (ROOT / "lib/internal/tcm_icp" / header).read_text()
     return re.findall(r'"(\w+)"', text[text.index(array): text.index("};", text.index(array))])
 
 

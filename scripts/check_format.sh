@@ -13,7 +13,7 @@ case ${1-} in
 esac
 command -v clang-format >/dev/null || fail "clang-format is missing; scripts/install_dependencies.sh --checks installs it"
 
-mapfile -d '' files < <(find app lib tests benchmarks \( -name '*.hpp' -o -name '*.cpp' \) -print0 | sort -z)
+mapfile -d '' files < <(find app lib tests benchmarks python examples \( -name '*.hpp' -o -name '*.cpp' \) -print0 | sort -z)
 ((${#files[@]} > 0)) || fail "no C++ files were found"
 clang-format "${mode[@]}" "${files[@]}"
 echo "${#files[@]} files are formatted"

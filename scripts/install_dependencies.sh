@@ -6,13 +6,17 @@ set -euo pipefail
 usage() {
   cat <<'TEXT'
 Usage: install_dependencies.sh [--tests] [--checks] [--conventional] [--paper] [--benchmarks] [--comparison]
-  --tests       also what the tests need (GoogleTest)
+                               [--python] [--packages] [--site]
+  --tests       also what the tests need (GoogleTest; for the Python module pybind11, NumPy)
   --checks      also what the format and script checks and scripts/fuzz.sh need (clang-format, shellcheck, clang)
   --conventional
                 also what register --method icp and features need (PCL: with its dependencies about 1 GB)
   --paper       also what scripts/paper_tables.py and scripts/ablations.py need (PCL, numpy, matplotlib)
   --benchmarks  also what the benchmarks compare with (Google Benchmark, nanoflann, PCL: more than 1 GB)
   --comparison  also what scripts/compare_registration.py compares with (PCL, Open3D for Python)
+  --python      also what the Python module needs (pybind11, Python's headers, NumPy)
+  --packages    also what scripts/make_packages.sh needs (those, dpkg-dev)
+  --site        also what scripts/make_site.sh needs (mkdocs, Doxygen)
 TCM_ICP_SKIP_INSTALL=1 turns the script off: for systems other than Debian, where the libraries came another way.
 TEXT
 }
@@ -22,12 +26,15 @@ packages=(g++ cmake ninja-build ccache libcgal-dev libeigen3-dev libfftw3-dev li
           libtbb-dev nlohmann-json3-dev libpugixml-dev zlib1g-dev)
 while (($# > 0)); do
   case $1 in
-    --tests) packages+=(libgtest-dev) ;;
+    --tests) packages+=(libgtest-dev pybind11-dev python3-dev python3-numpy) ;;
     --checks) packages+=(clang-format shellcheck clang libclang-rt-14-dev) ;;
     --conventional) packages+=(libpcl-dev) ;;
     --paper) packages+=(libpcl-dev python3-matplotlib python3-numpy) ;;
     --benchmarks) packages+=(libbenchmark-dev libnanoflann-dev libpcl-dev python3) ;;
     --comparison) packages+=(libbenchmark-dev libpcl-dev python3-numpy python3-open3d) ;;
+    --python) packages+=(pybind11-dev python3-dev python3-numpy) ;;
+    --packages) packages+=(pybind11-dev python3-dev python3-numpy dpkg-dev file) ;;
+    --site) packages+=(doxygen mkdocs) ;;
     -h | --help) usage; exit 0 ;;
     *) usage >&2; exit 1 ;;
   esac

@@ -19,6 +19,21 @@ foreach(cgal_first OFF ON)
   run(${consumer_build}/consumer)
 endforeach()
 
+# The examples, as one outside the repository would build them; each registers what it is made for.
+set(examples_build ${WORK_DIR}/build_examples)
+run(${CMAKE_COMMAND} -Werror=dev -S ${EXAMPLES_DIR} -B ${examples_build} -G ${GENERATOR} -D CMAKE_PREFIX_PATH=${prefix}
+    -D CMAKE_BUILD_TYPE=${BUILD_TYPE} -D CMAKE_CXX_COMPILER=${CXX_COMPILER})
+run(${CMAKE_COMMAND} --build ${examples_build})
+file(GLOB town ${TOWN_DIR}/*.ply)
+list(SORT town)
+run(${examples_build}/register_files ${WORK_DIR}/registered ${TOWN_DIR})
+run(${examples_build}/register_clouds ${town})
+run(${examples_build}/progress_and_links ${town})
+run(${examples_build}/own_reader)
+if(NOT EXISTS ${WORK_DIR}/registered/report.html)
+  message(FATAL_ERROR "register_files wrote no report")
+endif()
+
 set(expected share/doc/tcm_icp/LICENSE)
 if(WITH_APP)
   run(${prefix}/bin/tcm-icp --version)

@@ -118,32 +118,6 @@ DecisionFeatures decision_features(const ScanMeasurements& m, const ComponentRef
   return f;
 }
 
-std::string_view to_string(Reason reason) {
-  switch (reason) {
-    case Reason::kNotDecided:
-      return "not decided";
-    case Reason::kReference:
-      return "the reference";
-    case Reason::kAccepted:
-      return "accepted";
-    case Reason::kNoLink:
-      return "no link to another scan was found";
-    case Reason::kAmbiguous:
-      return "ambiguous";
-    case Reason::kMisfit:
-      return "misfit";
-    case Reason::kSlides:
-      return "slides";
-    case Reason::kSeenThrough:
-      return "seen through walls";
-    case Reason::kInexact:
-      return "inexact";
-    case Reason::kTooFewPoints:
-      return "too few of its points lie on surfaces";
-  }
-  return "unknown";
-}
-
 void DecisionOptions::validate() const {
   if (!(confidence >= 0 && confidence < 1)) {
     throw InvalidOptions("confidence must be at least 0 and below 1, not " + std::to_string(confidence));

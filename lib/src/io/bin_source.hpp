@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "input_buffer.hpp"
-#include "scan_source.hpp"
 #include "tcm_icp/io/scan_path.hpp"
+#include "tcm_icp/io/scan_source.hpp"
 
 namespace tcm_icp {
 

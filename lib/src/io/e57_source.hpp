@@ -12,8 +12,8 @@
 #include "e57_header.hpp"
 #include "e57_pages.hpp"
 #include "e57_points.hpp"
-#include "scan_source.hpp"
 #include "tcm_icp/io/scan_reader.hpp"
+#include "tcm_icp/io/scan_source.hpp"
 
 namespace tcm_icp {
 

@@ -7,7 +7,7 @@
 
 #include "input_buffer.hpp"
 #include "las_header.hpp"
-#include "scan_source.hpp"
+#include "tcm_icp/io/scan_source.hpp"
 
 namespace tcm_icp {
 

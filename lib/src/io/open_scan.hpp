@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <memory>
 
-#include "scan_source.hpp"
 #include "tcm_icp/io/scan_reader.hpp"
+#include "tcm_icp/io/scan_source.hpp"
 
 namespace tcm_icp {
 

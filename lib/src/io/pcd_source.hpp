@@ -8,7 +8,7 @@
 #include "input_buffer.hpp"
 #include "lzf_stream.hpp"
 #include "pcd_header.hpp"
-#include "scan_source.hpp"
+#include "tcm_icp/io/scan_source.hpp"
 
 namespace tcm_icp {
 

@@ -10,12 +10,13 @@
 
 namespace tcm_icp {
 struct ScanReader::Impl {
-  Impl(const std::filesystem::path& scan_path, ReadAttributes read_attributes)
-      : path(scan_path),
-        source(open_scan(scan_path, read_attributes)),
+  Impl(std::filesystem::path scan_path, std::unique_ptr<ScanSource> scan_source, ReadAttributes read_attributes,
+       LengthUnit unit)
+      : path(std::move(scan_path)),
+        source(std::move(scan_source)),
         attributes(read_attributes == ReadAttributes::kYes ? source->attributes() : std::vector<Attribute>{}),
         stride(tcm_icp::attribute_stride(attributes)),
-        metres_per_unit(metres_in(parse_scan_path(scan_path).unit)) {}
+        metres_per_unit(metres_in(unit)) {}
 
   std::filesystem::path path;
   std::unique_ptr<ScanSource> source;
@@ -26,7 +27,15 @@ struct ScanReader::Impl {
 };
 
 ScanReader::ScanReader(const std::filesystem::path& path, ReadAttributes read_attributes)
-    : impl_(std::make_unique<Impl>(path, read_attributes)) {}
+    : ScanReader(ScanInput(path), read_attributes) {}
+
+ScanReader::ScanReader(const ScanInput& scan, ReadAttributes read_attributes) {
+  auto source = scan.is_file() ? open_scan(scan.path, read_attributes) : scan.open();
+  if (!source) throw InvalidInput(scan.path.string() + ": its opener gave no source");
+  const LengthUnit unit = scan.is_file() ? parse_scan_path(scan.path).unit : LengthUnit::kMetre;
+  impl_ = std::make_unique<Impl>(scan.path, std::move(source), read_attributes, unit);
+}
+
 ScanReader::~ScanReader() = default;
 ScanReader::ScanReader(ScanReader&&) noexcept = default;
 ScanReader& ScanReader::operator=(ScanReader&&) noexcept = default;

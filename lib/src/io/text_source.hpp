@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "input_buffer.hpp"
-#include "scan_source.hpp"
+#include "tcm_icp/io/scan_source.hpp"
 #include "text_clouds.hpp"
 
 namespace tcm_icp {

@@ -63,9 +63,10 @@ Inspection inspect_scans(const std::vector<std::filesystem::path>& paths, const 
                          const PipelineOptions& options, const RunContext& context) {
   options.validate();
   if (paths.empty()) throw InvalidOptions("there is no scan to inspect; name at least one file");
-  check_paths(paths, initial_poses);
+  const std::vector<ScanInput> inputs = scans_in_files(paths);
+  check_inputs(inputs, initial_poses);
   Inspection out;
-  std::vector<SampledScan> sampled = read_scans(paths, options, context, ScanDetail::kNormals);
+  std::vector<SampledScan> sampled = read_scans(inputs, options, context, ScanDetail::kNormals);
   for (const auto& s : sampled) {
     out.scans.push_back(summarize(s));
     out.boxes_m.push_back(raw_box(s.scan));

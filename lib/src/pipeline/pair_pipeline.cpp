@@ -76,16 +76,16 @@ ScanPose scan_pose(const std::vector<SampledScan>& scans, std::size_t i, std::si
   return pose;
 }
 
-PipelineResult run_pairs(const std::vector<std::filesystem::path>& paths, const InitialPoses& initial_poses,
+PipelineResult run_pairs(std::span<const ScanInput> inputs, const InitialPoses& initial_poses,
                          const PipelineOptions& options, const RunContext& context, const std::string& name,
                          const PairMethod& method) {
   PipelineResult result;
   result.method = name;
-  const std::size_t n = paths.size();
-  if (!options.reference.empty()) result.reference = find_scan(paths, options.reference);
+  const std::size_t n = inputs.size();
+  if (!options.reference.empty()) result.reference = find_scan(inputs, options.reference);
   StageClock clock(result.stages);
   clock.begin("read and sample");
-  std::vector<SampledScan> scans = read_scans(paths, options, context, ScanDetail::kPoints);
+  std::vector<SampledScan> scans = read_scans(inputs, options, context, ScanDetail::kPoints);
   refuse_twins(scans);
   for (const auto& s : scans) result.scans.push_back(summarize(s));
   result.warnings = warn_of_units(result.scans, context);
@@ -120,8 +120,9 @@ PipelineResult register_by_pairs(const std::vector<std::filesystem::path>& paths
                                  const PipelineOptions& options, const RunContext& context, const std::string& name,
                                  const PairMethod& method) {
   options.validate();
-  check_paths(paths, initial_poses);
-  return run_pairs(paths, initial_poses, options, context, name, method);
+  const std::vector<ScanInput> inputs = scans_in_files(paths);
+  check_inputs(inputs, initial_poses);
+  return run_pairs(inputs, initial_poses, options, context, name, method);
 }
 
 }  // namespace tcm_icp

@@ -20,23 +20,28 @@ Pipeline::Pipeline(PipelineOptions options) : options_(std::move(options)) { opt
 
 PipelineResult Pipeline::run(const std::vector<std::filesystem::path>& paths, const InitialPoses& initial_poses,
                              const RunContext& context, const Survey& survey) const {
-  if (paths.size() < 2) {
-    throw InvalidOptions("registration needs at least two scans, not " + std::to_string(paths.size()) +
+  return run(scans_in_files(paths), initial_poses, context, survey);
+}
+
+PipelineResult Pipeline::run(std::span<const ScanInput> inputs, const InitialPoses& initial_poses,
+                             const RunContext& context, const Survey& survey) const {
+  if (inputs.size() < 2) {
+    throw InvalidOptions("registration needs at least two scans, not " + std::to_string(inputs.size()) +
                          "; name the files of all scans");
   }
-  check_paths(paths, initial_poses);
-  const std::size_t named = options_.reference.empty() ? 0 : find_scan(paths, options_.reference);
+  check_inputs(inputs, initial_poses);
+  const std::size_t named = options_.reference.empty() ? 0 : find_scan(inputs, options_.reference);
   const bool paper = options_.profile == Profile::kPaper;
-  check_survey(paths, initial_poses, survey, paper);
+  check_survey(inputs, initial_poses, survey, paper);
   const PipelineOptions& options = options_;
   PipelineResult result;
   StageClock clock(result.stages);
   clock.begin("read and sample");
   std::vector<SampledScan> sampled =
-      read_scans(paths, options, context, paper ? ScanDetail::kNormals : ScanDetail::kLinePieces);
+      read_scans(inputs, options, context, paper ? ScanDetail::kNormals : ScanDetail::kLinePieces);
   // Who asks for the order of the list gets it, and so does the paper, whose reference is the middle one of equals.
   const bool as_listed = paper || options.merge_order == MergeOrder::kFile;
-  const std::vector<std::size_t> order = as_listed ? order_of_list(paths.size()) : order_by_content(sampled);
+  const std::vector<std::size_t> order = as_listed ? order_of_list(inputs.size()) : order_by_content(sampled);
   refuse_twins(sampled);
   sampled = in_order(std::move(sampled), order);
   std::vector<std::string> files;
@@ -51,7 +56,7 @@ PipelineResult Pipeline::run(const std::vector<std::filesystem::path>& paths, co
                                                      result);
   clock.end();
   restore_order(order, result);
-  for (std::size_t i = 0; i < paths.size(); ++i) result.poses[i].unit = result.scans[i].unit;
+  for (std::size_t i = 0; i < inputs.size(); ++i) result.poses[i].unit = result.scans[i].unit;
   return result;
 }
 

@@ -11,6 +11,7 @@
 #include "pipeline/voxel_thinner.hpp"
 #include "tcm_icp/core/error.hpp"
 #include "tcm_icp/core/parallel.hpp"
+#include "tcm_icp/io/registered_cloud_writer.hpp"
 #include "tcm_icp/io/scan_reader.hpp"
 
 namespace tcm_icp {
@@ -32,10 +33,10 @@ void select(const PointBlock& block, std::size_t stride, const std::vector<char>
 
 class CloudOutput {
  public:
-  CloudOutput(const fs::path& folder, const std::vector<fs::path>& paths, const PipelineResult& result,
+  CloudOutput(const fs::path& folder, std::span<const ScanInput> inputs, const PipelineResult& result,
               const OutputOptions& options, const RunContext& context)
-      : folder_(folder), paths_(paths), result_(result), options_(options), context_(context) {
-    for (const auto& path : paths_) attributes_.push_back(ScanReader(path).attributes());
+      : folder_(folder), inputs_(inputs), result_(result), options_(options), context_(context) {
+    for (const auto& input : inputs_) attributes_.push_back(ScanReader(input).attributes());
     cloud_.format = options.format;
     cloud_.colour = options.colour;
     cloud_.reference = result.scans[result.reference].file;
@@ -76,7 +77,7 @@ class CloudOutput {
   /// The coordinates of the reference scan are those of the result: what its file says of them holds for both. E57 has
   /// well-known text there, and no codes.
   void name_coordinate_system() {
-    const ScanReader reader(paths_[result_.reference], ReadAttributes::kNo);
+    const ScanReader reader(inputs_[result_.reference], ReadAttributes::kNo);
     const std::string system = reader.coordinate_system();
     if (system.find('[') == std::string::npos || result_.scans[result_.reference].unit != "m") return;
     const Eigen::Isometry3d& T = result_.poses[result_.reference].T_reference_scan;
@@ -96,11 +97,11 @@ class CloudOutput {
   /// The raw points of a registered scan, without its outliers.
   void stream(std::size_t i, ReadAttributes read_attributes, const Use& use) const {
     const ScanSummary& scan = result_.scans[i];
-    ScanReader reader(paths_[i], read_attributes);
+    ScanReader reader(inputs_[i], read_attributes);
     PointBlock block, kept;
     std::vector<char> keep;
     while (reader.read(block)) {
-      context_.report("writing", i, paths_.size());
+      context_.report("writing", i, inputs_.size());
       keep.resize(block.size());
       parallel_for(context_.num_threads, block.size(), [&](std::size_t begin, std::size_t end) {
         for (std::size_t k = begin; k < end; ++k) {
@@ -126,8 +127,8 @@ class CloudOutput {
     const bool scales = scales_intensity();
     ValueRange intensity("intensity");
     double smallest_extent = std::numeric_limits<double>::infinity();
-    boxes_.resize(paths_.size());
-    for (std::size_t i = 0; i < paths_.size(); ++i) {
+    boxes_.resize(inputs_.size());
+    for (std::size_t i = 0; i < inputs_.size(); ++i) {
       if (!is_registered(i)) continue;
       const Eigen::Isometry3d& T = result_.poses[i].T_reference_scan;
       stream(i, scales ? ReadAttributes::kYes : ReadAttributes::kNo, [&](const PointBlock& block) {
@@ -146,11 +147,11 @@ class CloudOutput {
   std::uint64_t count_parts(std::uint64_t most_voxels) const {
     if (options_.voxel_m == 0) return 1;
     std::uint64_t num_points = 0;
-    for (std::size_t i = 0; i < paths_.size(); ++i) num_points += is_registered(i) ? result_.scans[i].num_points : 0;
+    for (std::size_t i = 0; i < inputs_.size(); ++i) num_points += is_registered(i) ? result_.scans[i].num_points : 0;
     if (num_points <= most_voxels) return 1;
     constexpr std::uint64_t kSample = 64;  // counting one voxel in 64 tells their number to a thousandth and better
     VoxelThinner sample(options_.voxel_m, 0, kSample);
-    for (std::size_t i = 0; i < paths_.size(); ++i) {
+    for (std::size_t i = 0; i < inputs_.size(); ++i) {
       if (!is_registered(i)) continue;
       const Eigen::Isometry3d& T = result_.poses[i].T_reference_scan;
       stream(i, ReadAttributes::kNo, [&](const PointBlock& block) {
@@ -165,7 +166,7 @@ class CloudOutput {
     if (options_.voxel_m > 0) thinner.emplace(options_.voxel_m, part, num_parts);
     std::vector<char> keep;
     PointBlock thinned;
-    for (std::size_t i = 0; i < paths_.size(); ++i) {
+    for (std::size_t i = 0; i < inputs_.size(); ++i) {
       if (!is_registered(i)) continue;
       const Eigen::Isometry3d& T = result_.poses[i].T_reference_scan;
       std::optional<RegisteredCloudWriter> own;
@@ -215,7 +216,7 @@ class CloudOutput {
   static constexpr double kLargestStep = 1e-6;  // of a scan's extent: coordinates may be rounded by that
 
   const fs::path& folder_;
-  const std::vector<fs::path>& paths_;
+  const std::span<const ScanInput> inputs_;
   const PipelineResult& result_;
   const OutputOptions& options_;
   const RunContext& context_;
@@ -234,9 +235,9 @@ void OutputOptions::validate() const {
                        std::to_string(voxel_m));
 }
 
-void write_registered_clouds(const fs::path& folder, const std::vector<fs::path>& paths, const PipelineResult& result,
+void write_registered_clouds(const fs::path& folder, std::span<const ScanInput> inputs, const PipelineResult& result,
                              const OutputOptions& options, const RunContext& context, std::uint64_t most_voxels) {
-  CloudOutput(folder, paths, result, options, context).write(most_voxels);
+  CloudOutput(folder, inputs, result, options, context).write(most_voxels);
 }
 
 }  // namespace tcm_icp

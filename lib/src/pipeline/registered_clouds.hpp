@@ -2,10 +2,12 @@
 // The clouds of a result: the merged one, and each scan by itself.
 
 #include <filesystem>
+#include <span>
 #include <vector>
 
 #include "tcm_icp/core/run_context.hpp"
-#include "tcm_icp/pipeline/output_options.hpp"
+#include "tcm_icp/io/registered_cloud_writer.hpp"
+#include "tcm_icp/io/scan_source.hpp"
 #include "tcm_icp/pipeline/pipeline_result.hpp"
 
 namespace tcm_icp {
@@ -16,8 +18,16 @@ constexpr std::uint64_t kMostVoxels = std::uint64_t{1} << 24U;
 /// Writes registered.EXT and, where asked for, scans/NAME.EXT into `folder`. The raw points stream by: once, once more
 /// before for formats that must know how far they reach, and for --voxel once for each `most_voxels` voxels.
 /// @throws InputError, OutputError, Cancelled
-void write_registered_clouds(const std::filesystem::path& folder, const std::vector<std::filesystem::path>& paths,
+void write_registered_clouds(const std::filesystem::path& folder, std::span<const ScanInput> inputs,
                              const PipelineResult& result, const OutputOptions& options, const RunContext& context,
                              std::uint64_t most_voxels = kMostVoxels);
+
+/// The same of scans in files.
+inline void write_registered_clouds(const std::filesystem::path& folder,
+                                    const std::vector<std::filesystem::path>& paths, const PipelineResult& result,
+                                    const OutputOptions& options, const RunContext& context,
+                                    std::uint64_t most_voxels = kMostVoxels) {
+  write_registered_clouds(folder, scans_in_files(paths), result, options, context, most_voxels);
+}
 
 }  // namespace tcm_icp

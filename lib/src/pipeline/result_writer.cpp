@@ -10,6 +10,7 @@
 #include "tcm_icp/io/output_folder.hpp"
 #include "tcm_icp/io/pose_export.hpp"
 #include "tcm_icp/io/pose_io.hpp"
+#include "tcm_icp/io/registered_cloud_writer.hpp"
 
 namespace tcm_icp {
 namespace {
@@ -39,13 +40,13 @@ void check_output_folder(const fs::path& folder, bool overwrite) {
   const OutputFolder trial(folder, overwrite, kMarker);  // made and removed: better now than after the work
 }
 
-void write_result(const fs::path& folder, bool overwrite, const std::vector<fs::path>& paths, PipelineResult& result,
+void write_result(const fs::path& folder, bool overwrite, std::span<const ScanInput> inputs, PipelineResult& result,
                   const PipelineOptions& options, const OutputOptions& clouds, const RunContext& context,
                   const RunDescription& description) {
   OutputFolder output(folder, overwrite, kMarker);
   StageClock clock(result.stages);
   clock.begin("write");
-  write_registered_clouds(output.work(), paths, result, clouds, context);
+  write_registered_clouds(output.work(), inputs, result, clouds, context);
   write_pose_file(output.work() / "poses.json",
                   {result.scans[result.reference].file, result.poses, result.survey.defined_by,
                    result.survey.has_frame ? result.survey.crs : ""});
@@ -64,6 +65,12 @@ void write_result(const fs::path& folder, bool overwrite, const std::vector<fs::
   write_text(output.work() / "report.json", json_text(report));
   write_text(output.work() / "report.html", report_html(report));
   output.commit();
+}
+
+void write_result(const fs::path& folder, bool overwrite, const std::vector<fs::path>& paths, PipelineResult& result,
+                  const PipelineOptions& options, const OutputOptions& clouds, const RunContext& context,
+                  const RunDescription& description) {
+  write_result(folder, overwrite, scans_in_files(paths), result, options, clouds, context, description);
 }
 
 }  // namespace tcm_icp

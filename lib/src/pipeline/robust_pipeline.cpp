@@ -232,7 +232,8 @@ class RobustPipeline {
       pose.file = in_.files[i];
       pose.reason = decision.reason == Reason::kNotDecided ? std::string(to_string(Reason::kNoLink)) : decision.text;
       if (c == settled_.size()) {
-        if (decision.reason == Reason::kNotDecided) decision.reason = Reason::kNoLink;
+        if (decision.accepted()) pose.reason = "the scans it agrees with are not registered";
+        if (decision.accepted() || decision.reason == Reason::kNotDecided) decision.reason = Reason::kNoLink;
         pose.verdict = "rejected";
         pose.component = next_component++;
         take_survey_pose(i, pose);

@@ -29,12 +29,35 @@ double correspondence(const PreparedScan& scan_a, const PreparedScan& scan_b, co
   return 1 - overlap({a.cloud.points, a.index}, {b.cloud.points, b.index}, T_a_b, 2 * a.voxel_size_m);
 }
 
+[[noreturn]] void refuse_twice(const std::filesystem::path& name) {
+  throw InvalidInput(name.string() + ": named twice; name each scan once");
+}
+
+// Results have a file for each scan, of its name, in their folders.
+void check_name(const std::filesystem::path& name) {
+  const bool climbs = std::find(name.begin(), name.end(), "..") != name.end();
+  if (!name.empty() && name.has_filename() && !name.is_absolute() && !climbs) return;
+  throw InvalidInput("'" + name.string() + "' cannot be the name of a scan: give each one that could be a file's");
+}
+
 }  // namespace
 
-std::size_t find_scan(const std::vector<std::filesystem::path>& paths, const std::string& name) {
-  const std::vector<std::string> names = scan_names(paths);
-  for (std::size_t i = 0; i < paths.size(); ++i) {
-    if (names[i] == name || paths[i] == name) return i;
+std::vector<std::string> input_names(std::span<const ScanInput> inputs) {
+  std::vector<std::filesystem::path> files;
+  for (const auto& input : inputs) {
+    if (input.is_file()) files.push_back(input.path);
+  }
+  const std::vector<std::string> of_files = scan_names(files);
+  std::vector<std::string> names;
+  std::size_t next_file = 0;
+  for (const auto& input : inputs) names.push_back(input.is_file() ? of_files[next_file++] : input.path.string());
+  return names;
+}
+
+std::size_t find_scan(std::span<const ScanInput> inputs, const std::string& name) {
+  const std::vector<std::string> names = input_names(inputs);
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    if (names[i] == name || inputs[i].path == name) return i;
   }
   std::size_t number = 0;
   const char* const end = name.data() + name.size();
@@ -42,19 +65,20 @@ std::size_t find_scan(const std::vector<std::filesystem::path>& paths, const std
   if (name.empty() || rest != end || error != std::errc()) {
     throw InvalidOptions("--reference " + name + ": no scan of that name; it must be one of the files given");
   }
-  if (number < paths.size()) return number;
-  throw InvalidOptions("--reference " + name + ": the scans have the numbers 0 to " + std::to_string(paths.size() - 1));
+  if (number < inputs.size()) return number;
+  throw InvalidOptions("--reference " + name + ": the scans have the numbers 0 to " +
+                       std::to_string(inputs.size() - 1));
 }
 
-void check_survey(const std::vector<std::filesystem::path>& paths, const InitialPoses& initial_poses,
-                  const Survey& survey, bool paper) {
+void check_survey(std::span<const ScanInput> inputs, const InitialPoses& initial_poses, const Survey& survey,
+                  bool paper) {
   if (survey.empty()) return;
   if (paper) {
     throw InvalidOptions(
         "control points, positions of scanners and fixed scans need --profile robust: the published "
         "method does not say how exact its poses are");
   }
-  const std::vector<std::string> names = scan_names(paths);
+  const std::vector<std::string> names = input_names(inputs);
   const auto has_initial_pose = [&](const std::string& name) {
     const auto at = std::find(names.begin(), names.end(), name);
     if (at == names.end()) throw InvalidOptions("the survey frame names '" + name + "', which is none of the scans");
@@ -74,36 +98,42 @@ void check_survey(const std::vector<std::filesystem::path>& paths, const Initial
   }
 }
 
-void check_paths(const std::vector<std::filesystem::path>& paths, const InitialPoses& initial_poses) {
-  if (initial_poses.size() != paths.size()) {
-    throw InvalidOptions(std::to_string(initial_poses.size()) + " initial poses for " + std::to_string(paths.size()) +
+void check_inputs(std::span<const ScanInput> inputs, const InitialPoses& initial_poses) {
+  if (initial_poses.size() != inputs.size()) {
+    throw InvalidOptions(std::to_string(initial_poses.size()) + " initial poses for " + std::to_string(inputs.size()) +
                          " scans");
   }
   std::set<std::pair<std::filesystem::path, std::size_t>> places;
-  for (const auto& path : paths) {
-    const ScanPath scan = parse_scan_path(path);
+  for (const auto& input : inputs) {
+    if (!input.is_file()) {
+      check_name(input.path);
+      continue;
+    }
+    const ScanPath scan = parse_scan_path(input.path);
     std::error_code ignored;
     const auto canonical = std::filesystem::weakly_canonical(scan.file, ignored);
     const std::size_t number = std::max<std::size_t>(scan.number, 1);  // the only scan of its file may go without
-    if (!places.insert({canonical.empty() ? scan.file : canonical, number}).second) {
-      throw InvalidInput(path.string() + ": named twice; name each scan once");
-    }
+    if (!places.insert({canonical.empty() ? scan.file : canonical, number}).second) refuse_twice(input.path);
+  }
+  std::set<std::string> names;
+  for (const auto& name : input_names(inputs)) {
+    if (!names.insert(name).second) refuse_twice(name);
   }
 }
 
-std::vector<SampledScan> read_scans(const std::vector<std::filesystem::path>& paths, const PipelineOptions& options,
+std::vector<SampledScan> read_scans(std::span<const ScanInput> inputs, const PipelineOptions& options,
                                     const RunContext& context, ScanDetail detail) {
   // All headers first: the last file's absence should not cost the reading of all others.
-  for (const auto& path : paths) const ScanReader opened(path, ReadAttributes::kNo);
-  const std::vector<std::string> names = scan_names(paths);
-  std::vector<SampledScan> scans(paths.size());
+  for (const auto& input : inputs) const ScanReader opened(input, ReadAttributes::kNo);
+  const std::vector<std::string> names = input_names(inputs);
+  std::vector<SampledScan> scans(inputs.size());
   const auto batch = static_cast<std::size_t>(context.num_threads);
-  for (std::size_t first = 0; first < paths.size(); first += batch) {
-    context.report("reading", first, paths.size());
-    const std::size_t count = std::min(batch, paths.size() - first);
+  for (std::size_t first = 0; first < inputs.size(); first += batch) {
+    context.report("reading", first, inputs.size());
+    const std::size_t count = std::min(batch, inputs.size() - first);
     parallel_for(context.num_threads, count, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = first + begin; i < first + end; ++i) {
-        scans[i] = sample_scan(paths[i], options.sampling, options.outliers, context.seed, 1, detail);
+        scans[i] = sample_scan(inputs[i], options.sampling, options.outliers, context.seed, 1, detail);
         scans[i].scan.file = names[i];
       }
     });
@@ -112,12 +142,9 @@ std::vector<SampledScan> read_scans(const std::vector<std::filesystem::path>& pa
 }
 
 ScanSummary summarize(const SampledScan& s) {
-  return {s.scan.file,           name_of(parse_scan_path(s.scan.path).unit),
-          s.scan.num_raw_points, s.scan.num_dropped_points,
-          s.scan.cloud.size(),   s.scan.voxel_size_m,
-          s.scan.spacing_m,      s.scan.noise_m,
-          s.scan.extent_m,       s.outliers,
-          s.scan.origin,         s.middle};
+  return {s.scan.file,         s.scan.unit,         s.scan.num_raw_points, s.scan.num_dropped_points,
+          s.scan.cloud.size(), s.scan.voxel_size_m, s.scan.spacing_m,      s.scan.noise_m,
+          s.scan.extent_m,     s.outliers,          s.scan.origin,         s.middle};
 }
 
 std::vector<PreparedScan> prepare_scans(std::vector<SampledScan>& scans, const Resolutions& resolutions,

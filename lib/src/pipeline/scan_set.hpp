@@ -2,7 +2,8 @@
 // The scans of one run, from their files to the correspondence graph: what happens before the first scan is placed.
 
 #include <Eigen/Geometry>
-#include <filesystem>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "core/acceptance.hpp"
@@ -10,25 +11,29 @@
 #include "scans/scan_sampling.hpp"
 #include "tcm_icp/core/run_context.hpp"
 #include "tcm_icp/graph/correspondence_graph.hpp"
+#include "tcm_icp/io/scan_source.hpp"
 #include "tcm_icp/pipeline/pipeline.hpp"
 
 namespace tcm_icp {
 
-/// The scan named by --reference: by its path or its name in results. @throws InvalidOptions  if there is none
-std::size_t find_scan(const std::vector<std::filesystem::path>& paths, const std::string& name);
+/// What results call the scans: files as scan_names() has it, others by their names.
+std::vector<std::string> input_names(std::span<const ScanInput> inputs);
 
-/// @throws InvalidInput    a scan named twice
-/// @throws InvalidOptions  another number of initial poses than of files
-void check_paths(const std::vector<std::filesystem::path>& paths, const InitialPoses& initial_poses);
+/// The scan named by --reference: by its path or its name in results. @throws InvalidOptions  if there is none
+std::size_t find_scan(std::span<const ScanInput> inputs, const std::string& name);
+
+/// @throws InvalidInput    a scan named twice, a name that cannot be one of a file in a result
+/// @throws InvalidOptions  another number of initial poses than of scans
+void check_inputs(std::span<const ScanInput> inputs, const InitialPoses& initial_poses);
 
 /// @throws InvalidOptions  a scan that there is none of, one that is fixed or weighed without an initial pose; a survey
 /// frame in the paper's profile
-void check_survey(const std::vector<std::filesystem::path>& paths, const InitialPoses& initial_poses,
-                  const Survey& survey, bool paper);
+void check_survey(std::span<const ScanInput> inputs, const InitialPoses& initial_poses, const Survey& survey,
+                  bool paper);
 
-/// sample_scan() for each file, as many at once as there are threads. Reports "reading".
+/// sample_scan() for each scan, as many at once as there are threads. Reports "reading".
 /// @throws InputError, InvalidInput, Cancelled
-std::vector<SampledScan> read_scans(const std::vector<std::filesystem::path>& paths, const PipelineOptions& options,
+std::vector<SampledScan> read_scans(std::span<const ScanInput> inputs, const PipelineOptions& options,
                                     const RunContext& context, ScanDetail detail);
 
 ScanSummary summarize(const SampledScan& scan);

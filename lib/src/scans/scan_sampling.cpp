@@ -10,6 +10,7 @@
 #include "tcm_icp/core/random.hpp"
 #include "tcm_icp/core/statistics.hpp"
 #include "tcm_icp/core/voxel_sampler.hpp"
+#include "tcm_icp/io/scan_path.hpp"
 #include "tcm_icp/io/scan_reader.hpp"
 
 namespace tcm_icp {
@@ -36,8 +37,8 @@ double robust_extent(const Points& points, const Eigen::Vector3d& middle) {
   return quantile(values, 0.9);
 }
 
-Points stream_into_sample(Scan& scan, std::size_t max_points) {
-  ScanReader reader(scan.path, ReadAttributes::kNo);
+Points stream_into_sample(const ScanInput& input, Scan& scan, std::size_t max_points) {
+  ScanReader reader(input, ReadAttributes::kNo);
   VoxelSampler sampler(max_points);
   PointBlock block;
   bool first = true;
@@ -50,13 +51,13 @@ Points stream_into_sample(Scan& scan, std::size_t max_points) {
   scan.num_raw_points = reader.num_points();
   scan.num_dropped_points = reader.num_dropped();
   if (scan.num_raw_points < kMinPoints) {
-    throw InvalidInput(scan.path.string() + ": " + std::to_string(scan.num_raw_points) +
+    throw InvalidInput(input.path.string() + ": " + std::to_string(scan.num_raw_points) +
                        " finite points; a scan needs at least 3; leave the file out or export it again");
   }
   Points sample = sampler.finish();
   scan.voxel_size_m = sampler.voxel_size_m();
   if (sample.size() < kMinPoints) {
-    throw InvalidInput(scan.path.string() + ": its points lie in " + std::to_string(sample.size()) +
+    throw InvalidInput(input.path.string() + ": its points lie in " + std::to_string(sample.size()) +
                        (sample.size() == 1 ? " place" : " places") +
                        "; a scan needs at least 3 different points; check the file's columns");
   }
@@ -89,13 +90,13 @@ NormalEstimate normals_of_surfaces(const Scan& scan, const NeighborIndex& index,
 
 }  // namespace
 
-SampledScan sample_scan(const std::filesystem::path& path, const SamplingOptions& sampling,
-                        const OutlierOptions& outliers, std::uint64_t seed, int num_threads, ScanDetail detail) {
+SampledScan sample_scan(const ScanInput& input, const SamplingOptions& sampling, const OutlierOptions& outliers,
+                        std::uint64_t seed, int num_threads, ScanDetail detail) {
   SampledScan out;
   Scan& scan = out.scan;
-  scan.path = path;
-  scan.file = path.filename().string();
-  const Points sample = stream_into_sample(scan, sampling.max_working_points);
+  scan.file = input.path.filename().string();
+  if (input.is_file()) scan.unit = name_of(parse_scan_path(input.path).unit);
+  const Points sample = stream_into_sample(input, scan, sampling.max_working_points);
 
   Rng rng = make_stream(seed, "outliers", stream_key(scan));
   out.outliers = learn_outlier_rule(sample, scan.voxel_size_m, outliers, rng, num_threads);
@@ -103,7 +104,7 @@ SampledScan sample_scan(const std::filesystem::path& path, const SamplingOptions
     if (!out.outliers.is_outlier(p)) scan.cloud.points.push_back(p);
   }
   if (scan.cloud.size() < kMinPoints) {
-    throw InvalidInput(path.string() + ": outlier removal left " + std::to_string(scan.cloud.size()) +
+    throw InvalidInput(input.path.string() + ": outlier removal left " + std::to_string(scan.cloud.size()) +
                        " points; choose another threshold or --outliers none");
   }
   const NeighborIndex index(scan.cloud.points);

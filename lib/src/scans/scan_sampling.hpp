@@ -1,10 +1,9 @@
 #pragma once
-// The first pass over a file: counts, local origin, working cloud without outliers.
-
-#include <filesystem>
+// The first pass over a scan: counts, local origin, working cloud without outliers.
 
 #include "tcm_icp/core/run_context.hpp"
 #include "tcm_icp/core/scan.hpp"
+#include "tcm_icp/io/scan_source.hpp"
 #include "tcm_icp/outliers/outlier_removal.hpp"
 #include "tcm_icp/scans/sampling_options.hpp"
 #include "tcm_icp/visibility/scan_lines.hpp"
@@ -23,12 +22,11 @@ struct SampledScan {
 /// it should not pay for it: a conventional ICP asks for points, the paper's profile for normals.
 enum class ScanDetail { kPoints, kNormals, kLinePieces };
 
-/// Streams the file through a voxel sampler (origin: its first point), learns the outlier rule and applies it to the
+/// Streams the scan through a voxel sampler (origin: its first point), learns the outlier rule and applies it to the
 /// working cloud, then finds the detail that is wanted; without normals the noise is 0. Memory follows
 /// max_working_points.
 /// @throws InputError, InvalidInput
-SampledScan sample_scan(const std::filesystem::path& path, const SamplingOptions& sampling,
-                        const OutlierOptions& outliers, std::uint64_t seed, int num_threads,
-                        ScanDetail detail = ScanDetail::kLinePieces);
+SampledScan sample_scan(const ScanInput& input, const SamplingOptions& sampling, const OutlierOptions& outliers,
+                        std::uint64_t seed, int num_threads, ScanDetail detail = ScanDetail::kLinePieces);
 
 }  // namespace tcm_icp

@@ -1,31 +1,31 @@
-// A user's program: moves a cloud and finds each point again by its nearest neighbour. Exits with 0 where all are
-// found.
+// A user's program: registers clouds in memory. Exits with 0 where the second cloud lies where it was taken from.
 
-#include <Eigen/Geometry>
 #include <iostream>
+#include <random>
+#include <vector>
 
-#include "tcm_icp/core/cloud.hpp"
-#include "tcm_icp/core/neighbor_index.hpp"
-#include "tcm_icp/core/rigid_transform.hpp"
+#include "tcm_icp/pipeline/register_scans.hpp"
 
 int main() {
-  tcm_icp::Cloud cloud;
-  for (int x = 0; x < 10; ++x) {
-    for (int y = 0; y < 10; ++y) cloud.points.emplace_back(x, y, 0.1 * x * y);
-  }
-  tcm_icp::Twist twist;
-  twist << 0.3, -0.2, 1.1, 5, -3, 2;
-  const Eigen::Isometry3d T_map_scan = tcm_icp::isometry_from_twist(twist);
-  const tcm_icp::Cloud moved = tcm_icp::transformed(cloud, T_map_scan);
-
-  const tcm_icp::NeighborIndex index(moved.points);
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
-    const tcm_icp::Neighbor neighbor = index.nearest(T_map_scan * cloud.points[i]);
-    if (neighbor.index != i || !(neighbor.squared_distance_m2 < 1e-20)) {
-      std::cerr << "point " << i << " was not found again\n";
-      return 1;
+  const Eigen::Isometry3d T_0_1 = Eigen::Translation3d(2, -1, 0.2) * Eigen::AngleAxisd(0.7, Eigen::Vector3d::UnitZ());
+  std::mt19937_64 random(7);  // a yard of boxes of all sizes; each point is seen in one of two scans
+  std::uniform_real_distribution<double> place(-20, 20), size(0.5, 6), unit(0, 1);
+  std::vector<tcm_icp::Cloud> clouds(2);
+  for (int box = 0; box < 60; ++box) {
+    const Eigen::Vector3d corner(place(random), place(random), 0), edges(size(random), size(random), size(random));
+    for (int k = 0; k < 1500; ++k) {
+      Eigen::Vector3d on_face(unit(random), unit(random), unit(random));
+      on_face[k % 3] = k % 2;
+      const Eigen::Vector3d point = corner + on_face.cwiseProduct(edges);
+      const bool is_first = unit(random) < 0.5;
+      clouds[is_first ? 0 : 1].points.push_back(is_first ? point : T_0_1.inverse() * point);
     }
   }
-  std::cout << "found all " << index.size() << " points again\n";
-  return 0;
+  tcm_icp::RegistrationOptions options;
+  options.reference = "cloud_0";
+  const tcm_icp::RegisteredScan scan = tcm_icp::register_scans(clouds, options).scans[1];
+  const double error_m = (scan.T_reference_scan.translation() - T_0_1.translation()).norm();
+  std::cout << scan.name << ": " << to_string(scan.verdict) << ", " << to_string(scan.reason) << ", probability "
+            << scan.probability << ", " << error_m << " m off\n";
+  return scan.is_registered() && error_m < 0.05 ? 0 : 1;
 }

@@ -7,16 +7,18 @@
 
 namespace tcm_icp {
 
+/// Points or directions in one frame.
 using Points = std::vector<Eigen::Vector3d>;
 
 /// Points in one frame [m]. `normals` is empty or as long as `points`; a zero normal marks a point whose surface
 /// direction could not be determined.
 struct Cloud {
-  Points points;
-  Points normals;
+  Points points;   ///< [m]
+  Points normals;  ///< of unit length or zero; empty: none
 
-  std::size_t size() const { return points.size(); }
-  bool empty() const { return points.empty(); }
+  std::size_t size() const { return points.size(); }  ///< number of points
+  bool empty() const { return points.empty(); }       ///< whether there is no point
+  /// Whether every point has a normal, be it zero.
   bool has_normals() const { return !points.empty() && normals.size() == points.size(); }
 };
 

@@ -29,6 +29,7 @@ class InvalidInput : public Error {
 /// do.
 class InputError : public Error {
  public:
+  /// The message is "path: place: problem; remedy".
   InputError(const std::filesystem::path& path, const std::string& place, const std::string& problem,
              const std::string& remedy)
       : Error(path.string() + (place.empty() ? "" : ": " + place) + ": " + problem +
@@ -38,6 +39,7 @@ class InputError : public Error {
 /// A file or folder that cannot be written.
 class OutputError : public Error {
  public:
+  /// The message is "path: problem; remedy".
   OutputError(const std::filesystem::path& path, const std::string& problem, const std::string& remedy)
       : Error(path.string() + ": " + problem + (remedy.empty() ? "" : "; " + remedy)) {}
 };

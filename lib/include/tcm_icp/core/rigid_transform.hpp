@@ -33,7 +33,8 @@ struct PointMoments {
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();        ///< [m]; NaN where there are no points
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< [m^2], about the mean
 
-  PointMoments() = default;
+  PointMoments() = default;  ///< of a single point at the origin
+  /// Of these points.
   PointMoments(const Points& points);  // NOLINT: points have moments, whoever asks for them
 };
 

@@ -7,7 +7,13 @@
 
 namespace tcm_icp {
 
-enum class LengthUnit { kMetre, kMillimetre, kFoot, kUsFoot };
+/// A unit of length.
+enum class LengthUnit {
+  kMetre,       ///< m
+  kMillimetre,  ///< mm
+  kFoot,        ///< ft, 0.3048 m
+  kUsFoot       ///< us-ft, 1200/3937 m
+};
 
 /// Metres in one of them: exact definitions, the US survey foot as 1200/3937.
 double metres_in(LengthUnit unit);

@@ -17,19 +17,21 @@ std::size_t scalar_size(ScalarType type);
 
 /// What a file holds for each point beside x y z: intensity, normals, colour, time, ...
 struct Attribute {
-  std::string name;
-  ScalarType type = ScalarType::kFloat64;
+  std::string name;                        ///< unique in a scan, without blanks
+  ScalarType type = ScalarType::kFloat64;  ///< of each value
+  /// Same name, same type.
   friend bool operator==(const Attribute&, const Attribute&) = default;
 };
 
 /// Bytes of one point's attributes, packed in their order.
 std::size_t attribute_stride(const std::vector<Attribute>& attributes);
 
+/// Some of the points of a scan, in its order.
 struct PointBlock {
   Points points;                      ///< [unit of the file] raw coordinates, finite
   std::vector<std::byte> attributes;  ///< size() * stride bytes, packed, native byte order
 
-  std::size_t size() const { return points.size(); }
+  std::size_t size() const { return points.size(); }  ///< number of points
 };
 
 }  // namespace tcm_icp

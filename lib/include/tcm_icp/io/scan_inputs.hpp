@@ -10,6 +10,7 @@
 
 namespace tcm_icp {
 
+/// The scans that were found.
 struct ScanInputs {
   std::vector<std::filesystem::path> scans;  ///< for ScanReader
   std::vector<std::string> left_out;         ///< files of folders that are no scans, each with the reason
@@ -18,7 +19,8 @@ struct ScanInputs {
 /// Each input in its place: a file becomes its scans (scans_in()); a folder, all scans in it and in the folders below,
 /// in natural order, without hidden files and results of this program; a pattern (* ? [) that is no file's name, what
 /// it matches, in natural order.
-/// @param bin  what files with the extension .bin are
+/// @param inputs  files, folders, patterns
+/// @param bin     what files with the extension .bin are
 /// @throws InputError  a pattern or folder without a scan, a named file that is none, a damaged scan in a folder
 ScanInputs find_scans(const std::vector<std::string>& inputs, BinLayout bin = BinLayout::kNone);
 

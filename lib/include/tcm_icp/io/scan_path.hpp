@@ -11,12 +11,17 @@
 namespace tcm_icp {
 
 /// What bare floats without a header are: x y z intensity, or x y z intensity ring.
-enum class BinLayout { kNone, kKitti, kNuScenes };
+enum class BinLayout {
+  kNone,     ///< no bare floats
+  kKitti,    ///< x y z intensity
+  kNuScenes  ///< x y z intensity ring
+};
 
+/// A scan's name in its parts.
 struct ScanPath {
-  std::filesystem::path file;
-  std::size_t number = 0;  ///< of the scan in the file, from 1; 0: the file is the scan
-  BinLayout bin = BinLayout::kNone;
+  std::filesystem::path file;            ///< to be read
+  std::size_t number = 0;                ///< of the scan in the file, from 1; 0: the file is the scan
+  BinLayout bin = BinLayout::kNone;      ///< what a file of bare floats holds
   LengthUnit unit = LengthUnit::kMetre;  ///< of the coordinates in the file
 };
 

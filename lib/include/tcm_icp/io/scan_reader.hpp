@@ -11,10 +11,15 @@
 #include <vector>
 
 #include "tcm_icp/io/point_block.hpp"
+#include "tcm_icp/io/scan_source.hpp"
 
 namespace tcm_icp {
 
-enum class ReadAttributes { kNo, kYes };
+/// Whether a point's attributes are read beside its coordinates.
+enum class ReadAttributes {
+  kNo,  ///< coordinates only
+  kYes  ///< attributes, too
+};
 
 /// Streams the points of one scan in file order. Memory is bounded (about 2 MiB and the block), whatever the file's
 /// size. What is in the file decides the format, and its extension where that does not tell; gzip'd files are unpacked.
@@ -28,13 +33,18 @@ class ScanReader {
   ///                         line.
   /// @throws InputError  naming file, place, problem and remedy
   explicit ScanReader(const std::filesystem::path& path, ReadAttributes read_attributes = ReadAttributes::kYes);
+
+  /// The same of a scan from any source. What a source of one's own throws comes through.
+  explicit ScanReader(const ScanInput& scan, ReadAttributes read_attributes = ReadAttributes::kYes);
   ~ScanReader();
+  /// Goes on where the other was, which may only be destroyed or assigned to.
   ScanReader(ScanReader&&) noexcept;
+  /// The same.
   ScanReader& operator=(ScanReader&&) noexcept;
 
   /// In the order of the file. Names are unique, not empty and without blanks.
   const std::vector<Attribute>& attributes() const;
-  std::size_t attribute_stride() const;
+  std::size_t attribute_stride() const;  ///< bytes of one point's attributes
 
   /// Replaces `block` by the next 1 to `max_points` finite points; false (and an empty block) at the end of the file.
   /// @throws InputError      where the file is damaged or truncated

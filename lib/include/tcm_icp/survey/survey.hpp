@@ -7,6 +7,7 @@
 
 namespace tcm_icp {
 
+/// What a control point is for.
 enum class PointUse {
   kControl,  ///< adjusted to
   kCheck,    ///< compared with the result only
@@ -14,20 +15,21 @@ enum class PointUse {
 
 /// A point measured in one scan whose coordinates in the survey frame are given: a target, or the scanner itself.
 struct ControlPoint {
-  std::string name;
+  std::string name;                                    ///< of the point; several observations may share it
   std::string scan;                                    ///< name of the scan; empty: `measured` is in the common frame
   Eigen::Vector3d measured = Eigen::Vector3d::Zero();  ///< [m] raw coordinates of the scan
   Eigen::Vector3d given = Eigen::Vector3d::Zero();     ///< [m] survey frame
   Eigen::Vector3d sigma_given_m = Eigen::Vector3d::Ones();     ///< [m] > 0, along the axes of the survey frame
   Eigen::Vector3d sigma_measured_m = Eigen::Vector3d::Zero();  ///< [m] >= 0, along the axes of the scan
-  PointUse use = PointUse::kControl;
-  bool is_scanner = false;  ///< from a list of scanners' positions
+  PointUse use = PointUse::kControl;                           ///< whether the result is adjusted to it
+  bool is_scanner = false;                                     ///< from a list of scanners' positions
 };
 
 /// An initial pose that is known by so much.
 struct PosePrior {
-  std::string scan;
-  double sigma_position_m = 0, sigma_rotation_rad = 0;  ///< > 0, the same about and along all axes
+  std::string scan;               ///< name of the scan
+  double sigma_position_m = 0;    ///< [m] > 0, the same along all axes
+  double sigma_rotation_rad = 0;  ///< [rad] > 0, the same about all axes
 };
 
 /// Empty where the common frame is that of the reference scan.
@@ -39,6 +41,7 @@ struct Survey {
   double sigma_level_rad = 0;
   std::string crs;  ///< of the survey frame, as text for files; empty: not known
 
+  /// Whether nothing defines another frame.
   bool empty() const { return points.empty() && fixed.empty() && priors.empty(); }
 };
 

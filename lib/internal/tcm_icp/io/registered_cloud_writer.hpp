@@ -11,20 +11,16 @@
 #include <string_view>
 #include <vector>
 
+#include "tcm_icp/io/output_options.hpp"
 #include "tcm_icp/io/point_block.hpp"
 
 namespace tcm_icp {
-
-enum class CloudFormat { kPly, kLas, kPcd, kText, kE57 };
 
 /// ".ply", ".las", ".pcd", ".xyz", ".e57".
 std::string_view extension_of(CloudFormat format);
 
 /// Whether a file of this format must be told before its first point how far its points reach.
 bool needs_box(CloudFormat format);
-
-/// kKeep: the input's own colour, where any scan has one (red green blue, all uchar or all ushort); else by scan.
-enum class CloudColour { kKeep, kScan };
 
 struct RegisteredCloudOptions {
   CloudFormat format = CloudFormat::kPly;

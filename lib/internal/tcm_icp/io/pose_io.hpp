@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-namespace tcm_icp {
+#include "tcm_icp/core/verdict.hpp"
 
-enum class ScanStatus { kReference, kRegistered, kUnregistered };
+namespace tcm_icp {
 
 struct ScanPose {
   std::string file;  ///< name of the scan, as scan_names() has it

@@ -8,17 +8,13 @@
 #include "tcm_icp/inference/inference_options.hpp"
 #include "tcm_icp/merging/merge_options.hpp"
 #include "tcm_icp/outliers/outlier_removal.hpp"
+#include "tcm_icp/pipeline/register_scans.hpp"
 #include "tcm_icp/registration/l1_fit.hpp"
 #include "tcm_icp/registration/lp_registration.hpp"
 #include "tcm_icp/scans/sampling_options.hpp"
 #include "tcm_icp/tcm/robust_tcm.hpp"
 
 namespace tcm_icp {
-
-enum class Profile {
-  kRobust,  ///< the paper's steps with statistics in place of minima, inference, decisions
-  kPaper,   ///< the paper to the letter
-};
 
 struct PipelineOptions {
   Profile profile = Profile::kRobust;

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "tcm_icp/core/verdict.hpp"
 #include "tcm_icp/registration/verification.hpp"
 #include "tcm_icp/visibility/free_space.hpp"
 
@@ -45,24 +46,9 @@ using DecisionFeatures = std::array<double, kDecisionFeatureNames.size()>;
 /// Finite, without a unit, within bounds.
 DecisionFeatures decision_features(const ScanMeasurements& m, const ComponentReference& component);
 
-enum class Reason {
-  kNotDecided,
-  kReference,
-  kAccepted,
-  kNoLink,        ///< nothing joins it to another scan
-  kAmbiguous,     ///< another place fits about as well
-  kMisfit,        ///< its points agree less, or less closely, than those of its set do
-  kSlides,        ///< it can slide without losing agreement
-  kSeenThrough,   ///< scans would have seen through walls
-  kInexact,       ///< the joint adjustment leaves its pose too uncertain
-  kTooFewPoints,  ///< too few points on surfaces to tell
-};
-
-std::string_view to_string(Reason reason);
-
 struct DecisionOptions {
-  double confidence = 0.8;  ///< 0..1; least probability of a scan that counts as registered
-  void validate() const;    ///< throws InvalidOptions
+  double confidence = kLeastConfidence;  ///< 0..1; least probability of a scan that counts as registered
+  void validate() const;                 ///< throws InvalidOptions
 };
 
 struct Decision {

@@ -1,10 +1,24 @@
 #pragma once
 // What clouds a result has, and in which format.
 
-#include "tcm_icp/io/registered_cloud_writer.hpp"
-
 namespace tcm_icp {
 
+/// File formats of written clouds.
+enum class CloudFormat {
+  kPly,   ///< PLY, binary
+  kLas,   ///< LAS 1.4 with extra bytes
+  kPcd,   ///< PCD, binary
+  kText,  ///< a point a line
+  kE57,   ///< E57: each scan in its own frame, with its pose
+};
+
+/// Where the colours of written clouds come from.
+enum class CloudColour {
+  kKeep,  ///< the input's own, where any scan has one (red green blue, all uchar or all ushort); else as kScan
+  kScan,  ///< one for each scan
+};
+
+/// What write_registration() writes of the clouds.
 struct OutputOptions {
   CloudFormat format = CloudFormat::kPly;   ///< of the merged cloud and of single scans
   CloudColour colour = CloudColour::kKeep;  ///< of the same

@@ -1,9 +1,8 @@
 #pragma once
-// One acquisition: where its file is, and the bounded working cloud that stands for it.
+// One acquisition: its name, and the bounded working cloud that stands for it.
 
 #include <Eigen/Core>
 #include <cstdint>
-#include <filesystem>
 #include <string>
 
 #include "tcm_icp/core/cloud.hpp"
@@ -11,8 +10,8 @@
 namespace tcm_icp {
 
 struct Scan {
-  std::filesystem::path path;
-  std::string file;                                  ///< name of the file, as poses.json has it
+  std::string file;                                  ///< name of the scan, as poses.json has it
+  std::string unit = "m";                            ///< of the coordinates in its file; all lengths here are metres
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< [m] subtracted from raw coordinates on reading
   Cloud cloud;                                       ///< working cloud, local frame (raw minus origin)
   double voxel_size_m = 0;                           ///< [m] voxel edge of the working cloud

@@ -3,11 +3,13 @@
 // report.json, report.html.
 
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "tcm_icp/core/run_context.hpp"
-#include "tcm_icp/pipeline/output_options.hpp"
+#include "tcm_icp/io/output_options.hpp"
+#include "tcm_icp/io/scan_source.hpp"
 #include "tcm_icp/pipeline/pipeline_options.hpp"
 #include "tcm_icp/pipeline/pipeline_result.hpp"
 
@@ -33,6 +35,11 @@ void check_output_folder(const std::filesystem::path& folder, bool overwrite);
 /// Writes all files into a temporary folder beside `folder` and renames it: a failed run leaves nothing. The raw points
 /// stream by a second time: outliers are left out, attributes kept. The time it takes is added to result.stages.
 /// @throws InputError, OutputError, Cancelled
+void write_result(const std::filesystem::path& folder, bool overwrite, std::span<const ScanInput> inputs,
+                  PipelineResult& result, const PipelineOptions& options, const OutputOptions& clouds,
+                  const RunContext& context, const RunDescription& description);
+
+/// The same of scans in files.
 void write_result(const std::filesystem::path& folder, bool overwrite, const std::vector<std::filesystem::path>& paths,
                   PipelineResult& result, const PipelineOptions& options, const OutputOptions& clouds,
                   const RunContext& context, const RunDescription& description);

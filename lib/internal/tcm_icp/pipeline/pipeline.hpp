@@ -1,20 +1,17 @@
 #pragma once
 // TCM-ICP from files to poses: Algorithm 1 of the paper, one call a line.
 
-#include <Eigen/Geometry>
 #include <filesystem>
-#include <optional>
+#include <span>
 #include <vector>
 
 #include "tcm_icp/core/run_context.hpp"
+#include "tcm_icp/io/scan_source.hpp"
 #include "tcm_icp/pipeline/pipeline_options.hpp"
 #include "tcm_icp/pipeline/pipeline_result.hpp"
 #include "tcm_icp/survey/survey.hpp"
 
 namespace tcm_icp {
-
-/// T_common_scan of each scan for raw coordinates; nothing where no guess is given. Any common frame will do.
-using InitialPoses = std::vector<std::optional<Eigen::Isometry3d>>;
 
 class Pipeline {
  public:
@@ -30,6 +27,10 @@ class Pipeline {
   /// @throws Cancelled                 the context's on_progress asked for it
   PipelineResult run(const std::vector<std::filesystem::path>& paths, const InitialPoses& initial_poses,
                      const RunContext& context, const Survey& survey = {}) const;
+
+  /// The same of scans from any source.
+  PipelineResult run(std::span<const ScanInput> inputs, const InitialPoses& initial_poses, const RunContext& context,
+                     const Survey& survey = {}) const;
 
   const PipelineOptions& options() const { return options_; }
 
