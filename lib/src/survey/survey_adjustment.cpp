@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "core/cross_matrix.hpp"
 #include "survey/survey_equations.hpp"
 #include "survey/survey_start.hpp"
 

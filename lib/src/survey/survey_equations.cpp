@@ -2,13 +2,9 @@
 
 #include <cmath>
 
-namespace tcm_icp {
+#include "core/cross_matrix.hpp"
 
-Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v) {
-  Eigen::Matrix3d m;
-  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-  return m;
-}
+namespace tcm_icp {
 
 TwistFrame frame_of_network(const ScanNetwork& network) {
   const auto n = static_cast<double>(network.frames.size());

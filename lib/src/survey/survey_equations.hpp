@@ -11,9 +11,6 @@ namespace tcm_icp {
 
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
-/// The matrix of v x.
-Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v);
-
 /// About which point of the local frame the survey frame turns, and by which arc its rotation is measured.
 TwistFrame frame_of_network(const ScanNetwork& network);
 
