@@ -1,25 +1,20 @@
 #include "e57_xml.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cstring>
 
 #include "core/xml_text.hpp"
+#include "number_text.hpp"
 
 namespace tcm_icp {
 namespace {
-
-std::string digits(double value) {
-  std::array<char, 32> text;
-  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
-}
 
 std::string text_element(const std::string& name, std::string_view text) {
   return "<" + name + " type=\"String\">" + xml_escaped(text) + "</" + name + ">\n";
 }
 
 std::string float_element(const std::string& name, double value) {
-  return "<" + name + " type=\"Float\">" + digits(value) + "</" + name + ">\n";
+  return "<" + name + " type=\"Float\">" + shortest_digits(value) + "</" + name + ">\n";
 }
 
 std::string integer_element(const std::string& name, std::int64_t value) {

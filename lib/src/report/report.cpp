@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "io/scan_status.hpp"
 #include "report_parts.hpp"
 
 namespace tcm_icp {
@@ -125,18 +126,6 @@ Json decision_json(const PipelineResult& result, std::size_t scan) {
   j["moves_with"] = m->num_moved - 1;
   j["features"] = d.features;
   return j;
-}
-
-const char* name_of(ScanStatus status) {
-  switch (status) {
-    case ScanStatus::kReference:
-      return "reference";
-    case ScanStatus::kRegistered:
-      return "registered";
-    case ScanStatus::kUnregistered:
-      return "unregistered";
-  }
-  return "unknown";
 }
 
 // Where the scan's middle lies in the frame of its component; null where no pose tells.
