@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "core/unit_quaternion.hpp"
 #include "core/xml_text.hpp"
 #include "number_text.hpp"
 
@@ -26,9 +27,7 @@ std::string structure(const std::string& name, const std::string& content) {
 }
 
 std::string pose_xml(const Eigen::Isometry3d& T) {
-  Eigen::Quaterniond q(T.linear());
-  q.normalize();
-  if (q.w() < 0) q.coeffs() *= -1;
+  const Eigen::Quaterniond q = unit_quaternion(T);
   const Eigen::Vector3d t = T.translation();
   return structure("pose", structure("rotation", float_element("w", q.w()) + float_element("x", q.x()) +
                                                      float_element("y", q.y()) + float_element("z", q.z())) +

@@ -1,5 +1,6 @@
 #include "tcm_icp/io/pose_export.hpp"
 
+#include "core/unit_quaternion.hpp"
 #include "number_text.hpp"
 #include "scan_status.hpp"
 #include "tcm_icp/core/error.hpp"
@@ -12,8 +13,7 @@ bool is_registered(const ScanPose& pose) { return pose.status != ScanStatus::kUn
 
 /// Position, then quaternion x y z w with w >= 0.
 std::string position_and_turn(const Eigen::Isometry3d& T, char separator) {
-  Eigen::Quaterniond q = Eigen::Quaterniond(T.linear()).normalized();
-  if (q.w() < 0) q.coeffs() = -q.coeffs();
+  const Eigen::Quaterniond q = unit_quaternion(T);
   std::string text;
   for (int axis = 0; axis < 3; ++axis) text += digits17(T.translation()[axis]) + separator;
   return text + digits17(q.x()) + separator + digits17(q.y()) + separator + digits17(q.z()) + separator +
