@@ -278,20 +278,6 @@ class SurveyFrame {
 
 }  // namespace
 
-const char* to_string(PointStatus status) {
-  switch (status) {
-    case PointStatus::kUsed:
-      return "used";
-    case PointStatus::kBlunder:
-      return "blunder";
-    case PointStatus::kCheck:
-      return "check";
-    case PointStatus::kNotRegistered:
-      return "not registered";
-  }
-  return "unknown";
-}
-
 SurveyPlacement fit_to_survey(const PipelineInput& input, const std::vector<PreparedScan>& scans,
                               const Resolutions& resolutions, const std::vector<SettledComponent>& settled,
                               PipelineResult& result) {
