@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <optional>
 #include <string>
 
 #include "adjustment/uncertainty.hpp"
+#include "core/figure_text.hpp"
 #include "pipeline/scan_set.hpp"
 #include "survey/survey_adjustment.hpp"
 
@@ -252,18 +252,13 @@ class SurveyFrame {
                                : p.point.scan.empty() ? "control point " + p.point.name
                                                       : "control point " + p.point.name + " in " + p.point.scan;
       if (p.status == PointStatus::kBlunder) {
-        in_.context.warn(name + " contradicts the others and was left out: it is off by " + length(p.residual_m));
+        in_.context.warn(name + " contradicts the others and was left out: it is off by " +
+                         figure(p.residual_m.norm(), 4) + " m");
       } else if (p.status == PointStatus::kNotRegistered && record_.has_frame) {
         in_.context.warn(name + " was not used: its scan has no place in the survey frame");
       }
     }
     for (const auto& remark : record_.remarks) in_.context.warn(remark);
-  }
-
-  static std::string length(const Eigen::Vector3d& v) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.4g m", v.norm());
-    return text;
   }
 
   const PipelineInput& in_;

@@ -3,11 +3,11 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <set>
 #include <utility>
 
 #include "core/cross_matrix.hpp"
+#include "core/figure_text.hpp"
 #include "survey/survey_equations.hpp"
 #include "survey/survey_start.hpp"
 
@@ -302,18 +302,15 @@ class SurveyAdjustment {
     for (std::size_t k = 0; k < in_.poses.size(); ++k) {
       const double off_m = contradiction_m(f, k);
       if (!(off_m > 0)) continue;
-      char length[32];
-      std::snprintf(length, sizeof length, "%.3g", off_m);
       say("the initial pose of " + in_.poses[k].name + " contradicts links and other observations: these put it " +
-          std::string(length) + " m from there");
+          figure(off_m) + " m from there");
     }
     if (f.degrees_of_freedom() == 0) {
       say("nothing is redundant: no observation is checked by the others");
     } else if (f.chi_squared > chi_squared_limit(f.degrees_of_freedom())) {
-      char factor[32];
-      std::snprintf(factor, sizeof factor, "%.3g", f.chi_squared / f.degrees_of_freedom());
       say("what was used contradicts itself more than its standard deviations allow (variance factor " +
-          std::string(factor) + "): they are too small, or blunders are left that cannot be told");
+          figure(f.chi_squared / f.degrees_of_freedom()) +
+          "): they are too small, or blunders are left that cannot be told");
     }
   }
 
