@@ -1,13 +1,13 @@
 #include "survey_setup.hpp"
 
 #include <algorithm>
+#include <boost/algorithm/string/trim.hpp>
 #include <cctype>
 #include <fstream>
 #include <iterator>
 #include <numbers>
 
 #include "run_setup.hpp"
-#include "suggestion.hpp"
 #include "tcm_icp/core/error.hpp"
 #include "tcm_icp/io/pose_io.hpp"
 #include "tcm_icp/io/scan_path.hpp"
@@ -36,12 +36,6 @@ void check(const RegisterOptions& o) {
   if (s.level_sigma_deg > 0) throw InvalidOptions("--level-sigma" + std::string(without));
 }
 
-std::string trimmed(const std::string& text) {
-  constexpr const char* kBlanks = " \t\r\n";
-  const std::size_t begin = text.find_first_not_of(kBlanks);
-  return begin == std::string::npos ? "" : text.substr(begin, text.find_last_not_of(kBlanks) - begin + 1);
-}
-
 bool is_epsg(const std::string& text) {
   const std::string start = "EPSG:";
   return text.starts_with(start) && text.size() > start.size() &&
@@ -57,11 +51,12 @@ bool is_well_known_text(const std::string& text) {
 }
 
 std::string read_crs(const std::string& option) {
-  std::string text = trimmed(option);
+  std::string text = boost::algorithm::trim_copy(option);
   if (is_epsg(text) || is_well_known_text(text)) return text;
   std::ifstream in(option, std::ios::binary);
   if (in && !std::filesystem::is_directory(option)) {
-    text = trimmed({std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()});
+    text.assign(std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>());
+    boost::algorithm::trim(text);
     if (is_epsg(text) || is_well_known_text(text)) return text;
     throw InputError(option, "", "holds no coordinate system", "it must be EPSG:n or well-known text (.wkt, .prj)");
   }
@@ -91,15 +86,11 @@ Survey read_survey(const RegisterOptions& options, const std::vector<std::filesy
   }
   const std::vector<std::string> names = scan_names(scans);
   for (const auto& fixed : s.fixed) {
-    bool found = false;
-    for (std::size_t i = 0; i < scans.size(); ++i) {
-      if (!is_called(fixed, scans[i], names[i], i)) continue;
+    for (const std::size_t i : scans_called(fixed, scans, "--fix " + fixed)) {
       if (std::find(survey.fixed.begin(), survey.fixed.end(), names[i]) == survey.fixed.end()) {
         survey.fixed.push_back(names[i]);
       }
-      found = true;
     }
-    if (!found) throw InvalidOptions("--fix " + fixed + ": no scan is called that" + did_you_mean(fixed, names));
   }
   add_priors(options, names, survey);
   survey.sigma_level_rad = s.level_sigma_deg * std::numbers::pi / 180;

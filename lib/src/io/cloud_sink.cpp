@@ -11,9 +11,13 @@ CloudSink::CloudSink(std::filesystem::path path) : path_(std::move(path)) {
   if (!stream_) throw OutputError(path_, "cannot be written", "check that the folder is there and may be written to");
 }
 
+void CloudSink::check() const {
+  if (!stream_) throw OutputError(path_, "cannot be written", "check the free space on the disk");
+}
+
 void CloudSink::put(const void* bytes, std::size_t size) {
   stream_.write(static_cast<const char*>(bytes), static_cast<std::streamsize>(size));
-  if (!stream_) throw OutputError(path_, "cannot be written", "check the free space on the disk");
+  check();
 }
 
 void CloudSink::go_to(std::uint64_t position) {
@@ -23,7 +27,7 @@ void CloudSink::go_to(std::uint64_t position) {
 void CloudSink::finish(std::uint64_t num_points) {
   complete(num_points);
   stream_.close();  // fails where the last bytes do not find room
-  if (!stream_) throw OutputError(path_, "cannot be written", "check the free space on the disk");
+  check();
 }
 
 std::string count_lines(const std::string& comment, const std::string& text, std::uint64_t count) {

@@ -54,6 +54,8 @@ class CloudSink {
   const std::filesystem::path& path() const { return path_; }
 
  private:
+  void check() const;  ///< throws OutputError where a write failed
+
   std::filesystem::path path_;
   std::ofstream stream_;
 };

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "cloud_sink.hpp"
+#include "largest_coordinate.hpp"
 #include "little_endian.hpp"
 #include "scalar.hpp"
 
@@ -122,8 +123,7 @@ class PcdSink : public CloudSink {
 
 bool pcd_needs_doubles(const Eigen::AlignedBox3d& box, double largest_step) {
   if (box.isEmpty()) return false;
-  const double farthest = std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
-  return farthest * std::numeric_limits<float>::epsilon() > largest_step;
+  return largest_coordinate(box) * std::numeric_limits<float>::epsilon() > largest_step;
 }
 
 std::unique_ptr<CloudSink> open_pcd(std::filesystem::path path, const RecordLayout& layout,
