@@ -77,12 +77,13 @@ constexpr Names<Refinement, 5> kRefinements{"refinement",
                                               {"annealing", Refinement::kAnnealing},
                                               {"both", Refinement::kDescentThenAnnealing}}}};
 
-constexpr Names<CloudFormat, 5> kFormats{"format",
+constexpr Names<CloudFormat, 6> kFormats{"format",
                                          {{{"ply", CloudFormat::kPly},
                                            {"las", CloudFormat::kLas},
                                            {"pcd", CloudFormat::kPcd},
                                            {"text", CloudFormat::kText},
-                                           {"e57", CloudFormat::kE57}}}};
+                                           {"e57", CloudFormat::kE57},
+                                           {"ptx", CloudFormat::kPtx}}}};
 constexpr Names<CloudColour, 2> kColours{"colour", {{{"keep", CloudColour::kKeep}, {"scan", CloudColour::kScan}}}};
 
 // What the command line holds as text before it becomes an enumeration.
@@ -185,7 +186,7 @@ po::options_description survey_options(SurveyOptions& o) {
 po::options_description cloud_options(OutputOptions& o, Choices& c) {
   po::options_description clouds("Clouds written");
   clouds.add_options()("format", value(c.format),
-                       "ply, las (1.4), pcd, text or e57: of the merged cloud and of --each")(
+                       "ply, las (1.4), pcd, text, e57 or ptx: of the merged cloud and of --each")(
       "each", po::bool_switch(&o.each)->default_value(o.each),
       "every registered scan in the common frame in a file of its own, too: scans/")(
       "voxel", value(c.voxel),

@@ -45,7 +45,7 @@ void write_own(const fs::path& folder) {
   block.attributes.resize(bytes.size());
   std::memcpy(block.attributes.data(), bytes.data(), bytes.size());
   for (const auto format : {CloudFormat::kPly, CloudFormat::kLas, CloudFormat::kPcd, CloudFormat::kText,
-                            CloudFormat::kE57}) {
+                            CloudFormat::kE57, CloudFormat::kPtx}) {
     RegisteredCloudOptions options;
     options.format = format;
     options.reference = "a";
