@@ -178,8 +178,9 @@ po::options_description survey_options(SurveyOptions& o) {
       "fix", po::value(&o.fixed), "keep this scan where --init puts it; may be given many times")(
       "crs", value(o.crs),
       "coordinate system of that frame, for the files written: EPSG:n, well-known text or a file of it")(
-      "level-sigma", value(o.level_sigma_deg),
-      "[deg] scans are upright with this standard deviation, in the adjustment; 0: they need not be");
+      "level-sigma", po::value(&o.level_sigmas_deg),
+      "[deg] scans are upright with this standard deviation, in the adjustment; SCAN=DEG for one scan or file; 0: it "
+      "need not be; may be given many times");
   return survey;
 }
 
@@ -404,8 +405,10 @@ void print_register_config(const RegisterOptions& options, std::ostream& out) {
   out << "# tcm-icp register --config FILE\n" << std::setprecision(std::numeric_limits<double>::max_digits10);
   for (const auto& unit : o.units) out << "unit = " << unit << '\n';
   for (const auto& fixed : o.survey.fixed) out << "fix = " << fixed << '\n';
+  for (const auto& sigma : o.survey.level_sigmas_deg) out << "level-sigma = " << sigma << '\n';
   for (const auto& option : description.options()) {
-    if (option->long_name() == "unit" || option->long_name() == "fix") continue;  // as many as were given, or none
+    const std::string& name = option->long_name();
+    if (name == "unit" || name == "fix" || name == "level-sigma") continue;  // as many as were given, or none
     const boost::any& v = map[option->long_name()].value();
     out << option->long_name() << " = ";
     if (const auto* text = boost::any_cast<std::string>(&v)) out << *text;

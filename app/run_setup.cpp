@@ -10,6 +10,7 @@
 #include "tcm_icp/io/pose_io.hpp"
 #include "tcm_icp/io/scan_path.hpp"
 #include "tcm_icp/io/scan_reader.hpp"
+#include "values_by_scan.hpp"
 
 namespace tcm_icp::app {
 
@@ -67,17 +68,10 @@ std::vector<std::size_t> scans_called(const std::string& name, const std::vector
 
 std::vector<std::filesystem::path> with_units(const std::vector<std::filesystem::path>& scans,
                                               const std::vector<std::string>& units) {
+  const auto unit_of = values_by_scan<LengthUnit>(units, "--unit", scans, parse_unit);
   std::vector<std::filesystem::path> out = scans;
-  for (const auto& option : units) {
-    if (option.find('=') != std::string::npos) continue;
-    for (auto& scan : out) scan = with_unit(scan, parse_unit(option, option));
-  }
-  for (const auto& option : units) {
-    const std::size_t mark = option.rfind('=');
-    if (mark == std::string::npos) continue;
-    const std::string name = option.substr(0, mark);
-    const LengthUnit unit = parse_unit(option, option.substr(mark + 1));
-    for (const std::size_t i : scans_called(name, scans, "--unit " + option)) out[i] = with_unit(scans[i], unit);
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    if (unit_of[i]) out[i] = with_unit(scans[i], *unit_of[i]);
   }
   return out;
 }

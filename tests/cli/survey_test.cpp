@@ -254,6 +254,9 @@ TEST_F(RegisterSurveyOptions, RefuseWhatMakesNoSense) {
   expect_refusal(control + Words{"--crs", "Gauss"}, 1, {"--crs 'Gauss'", "EPSG:n"});
   expect_refusal(control + Words{"--crs", "words.wkt"}, 2, {"words.wkt", "no coordinate system"});
   expect_refusal(control + Words{"--level-sigma", "90"}, 1, {"--level-sigma", "90"});
+  expect_refusal(control + Words{"--level-sigma", "0.01", "--level-sigma", "001.ply=little"}, 1,
+                 {"--level-sigma 001.ply=little", "SCAN=DEGREES"});
+  expect_refusal(control + Words{"--level-sigma", "007.ply=0.01"}, 1, {"--level-sigma 007.ply=0.01", "'007.ply'"});
   expect_refusal(control + Words{"--profile", "paper"}, 1, {"--profile robust"});
   expect_refusal(control + Words{"--method", "icp"}, 1, {"--method"});
 }

@@ -77,6 +77,14 @@ class SurveyFrame {
     return at == priors.end() ? nullptr : &*at;
   }
 
+  double level_of(std::size_t scan) const {
+    double sigma_rad = in_.survey.sigma_level_rad;
+    for (const ScanLevel& level : in_.survey.levels) {
+      if (level.scan == in_.files[scan]) sigma_rad = level.sigma_rad;
+    }
+    return sigma_rad;
+  }
+
   // The frame is that of these scans, whatever their observations determine.
   bool place_first(const Members& members) {
     const SurveyObservations observed = observations(members, true);
@@ -155,7 +163,7 @@ class SurveyFrame {
         out.poses.push_back({in_.files[i], k, Eigen::Translation3d(-record_.origin) * *T_init_[i],
                              prior->sigma_rotation_rad, prior->sigma_position_m});
       }
-      if (in_.survey.sigma_level_rad > 0) out.levels.push_back({k, in_.survey.sigma_level_rad});
+      if (const double sigma_rad = level_of(i); sigma_rad > 0) out.levels.push_back({k, sigma_rad});
     }
     return out;
   }
