@@ -5,9 +5,11 @@ set -euo pipefail
 
 usage() {
   cat <<'TEXT'
-Usage: install_dependencies.sh [--tests] [--checks] [--conventional] [--paper] [--benchmarks] [--comparison]
+Usage: install_dependencies.sh [--tests] [--checks] [--conventional] [--outside] [--paper] [--benchmarks]
+                               [--comparison]
   --tests       also what the tests need (GoogleTest)
   --checks      also what the format and script checks and scripts/fuzz.sh need (clang-format, shellcheck, clang)
+  --outside     also what scripts/check_formats_outside.py opens files with (CloudCompare, PCL's tools, Open3D for Python)
   --conventional
                 also what register --method icp and features need (PCL: with its dependencies about 1 GB)
   --paper       also what scripts/paper_tables.py and scripts/ablations.py need (PCL, numpy, matplotlib)
@@ -25,6 +27,7 @@ while (($# > 0)); do
     --tests) packages+=(libgtest-dev) ;;
     --checks) packages+=(clang-format shellcheck clang libclang-rt-14-dev) ;;
     --conventional) packages+=(libpcl-dev) ;;
+    --outside) packages+=(cloudcompare pcl-tools python3-numpy python3-open3d) ;;
     --paper) packages+=(libpcl-dev python3-matplotlib python3-numpy) ;;
     --benchmarks) packages+=(libbenchmark-dev libnanoflann-dev libpcl-dev python3) ;;
     --comparison) packages+=(libbenchmark-dev libpcl-dev python3-numpy python3-open3d) ;;
