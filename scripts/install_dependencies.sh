@@ -5,10 +5,11 @@ set -euo pipefail
 
 usage() {
   cat <<'TEXT'
-Usage: install_dependencies.sh [--tests] [--checks] [--conventional] [--outside] [--paper] [--benchmarks]
+Usage: install_dependencies.sh [--tests] [--checks] [--crs] [--conventional] [--outside] [--paper] [--benchmarks]
                                [--comparison]
   --tests       also what the tests need (GoogleTest)
   --checks      also what the format and script checks and scripts/fuzz.sh need (clang-format, shellcheck, clang)
+  --crs         also what the text of EPSG codes in LAS and E57 needs (PROJ)
   --outside     also what scripts/check_formats_outside.py opens files with (CloudCompare, PCL's tools, Open3D for Python)
   --conventional
                 also what register --method icp and features need (PCL: with its dependencies about 1 GB)
@@ -28,6 +29,7 @@ while (($# > 0)); do
     --checks) packages+=(clang-format shellcheck clang libclang-rt-14-dev) ;;
     --conventional) packages+=(libpcl-dev) ;;
     --outside) packages+=(cloudcompare pcl-tools python3-numpy python3-open3d) ;;
+    --crs) packages+=(libproj-dev) ;;
     --paper) packages+=(libpcl-dev python3-matplotlib python3-numpy) ;;
     --benchmarks) packages+=(libbenchmark-dev libnanoflann-dev libpcl-dev python3) ;;
     --comparison) packages+=(libbenchmark-dev libpcl-dev python3-numpy python3-open3d) ;;

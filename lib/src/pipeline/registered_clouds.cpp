@@ -43,6 +43,8 @@ class CloudOutput {
     if (result.survey.has_frame) {
       cloud_.frame = result.survey.defined_by;
       cloud_.crs = result.survey.crs;
+      const bool needs_text = wants_text() && !cloud_.crs.empty() && !las_names_crs(cloud_.crs);
+      if (needs_text && las_names_crs(options.crs_text)) cloud_.crs = options.crs_text;
     } else if (options.format == CloudFormat::kE57) {
       name_coordinate_system();
     }
@@ -57,10 +59,9 @@ class CloudOutput {
     merged.finish();
     warn_of_replaced(merged.num_replaced(), name);
     warn_of_replaced(num_replaced_in_scans_, "scans/");
-    const bool wants_text = options_.format == CloudFormat::kLas || options_.format == CloudFormat::kE57;
-    if (wants_text && !cloud_.crs.empty() && !las_names_crs(cloud_.crs)) {
+    if (wants_text() && !cloud_.crs.empty() && !las_names_crs(cloud_.crs)) {
       context_.warn(name + " does not name the coordinate system " + cloud_.crs + ": the format wants its " +
-                    "well-known text, which is known here of UTM zones alone; give a file with it to --crs");
+                    "well-known text, which is not known here; give a file with it to --crs");
     }
     if (options_.format == CloudFormat::kPtx) warn_of_left_out(name);
     if (options_.format == CloudFormat::kPcd && pcd_needs_doubles(cloud_.box, cloud_.largest_step)) {
@@ -71,6 +72,8 @@ class CloudOutput {
 
  private:
   using Use = std::function<void(const PointBlock&)>;
+
+  bool wants_text() const { return options_.format == CloudFormat::kLas || options_.format == CloudFormat::kE57; }
 
   bool is_registered(std::size_t i) const { return result_.poses[i].status != ScanStatus::kUnregistered; }
 
