@@ -233,8 +233,8 @@ TEST_F(RegisterSurvey, AnyCodeOfTheDatabaseBecomesTextInLas) {
   Rng rng = make_stream(4, "codes");
   for (int k = 0; k < 4; ++k) {
     const Eigen::Vector3d place = pose(0) * noise(rng, 6);
-    csv +=
-        "T" + std::to_string(k) + ",000.ply," + numbers(pose(0).inverse() * place) + "," + numbers(place) + ",0.003\n";
+    const std::string name = std::string("T") + std::to_string(k);
+    csv += name + ",000.ply," + numbers(pose(0).inverse() * place) + "," + numbers(place) + ",0.003\n";
   }
   folder_.write("control.csv", csv);
   const auto run_with = [&](const std::string& crs) {
