@@ -1,14 +1,12 @@
 // tcm-icp inspect: what is known of scans before they are registered, as tables or JSON.
 
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstdio>
 #include <iomanip>
 #include <iostream>
 
 #include "command.hpp"
 #include "console.hpp"
+#include "figure.hpp"
 #include "register_options.hpp"
 #include "run_setup.hpp"
 #include "tcm_icp/core/error.hpp"
@@ -18,12 +16,7 @@
 namespace tcm_icp::app {
 namespace {
 
-std::string figure(double value, const char* format = "%.4g") {
-  if (!std::isfinite(value)) return "-";
-  std::array<char, 64> text;
-  std::snprintf(text.data(), text.size(), format, value);
-  return text.data();
-}
+std::string four_digits(double value) { return figure("%.4g", value); }
 
 enum class LastColumn { kNumber, kText };
 
@@ -52,10 +45,11 @@ void print_scans(const Inspection& inspection, std::ostream& out) {
     const ScanSummary& s = inspection.scans[i];
     counts.push_back({s.file, std::to_string(s.num_points), std::to_string(s.num_dropped_points),
                       std::to_string(s.num_working_points), std::to_string(s.outliers.summary().num_outliers),
-                      figure(s.spacing_m), figure(s.noise_m), figure(s.extent_m), figure(s.voxel_size_m)});
+                      four_digits(s.spacing_m), four_digits(s.noise_m), four_digits(s.extent_m),
+                      four_digits(s.voxel_size_m)});
     std::vector<std::string> row{s.file};
-    for (const double v : inspection.boxes_m[i].min()) row.push_back(figure(v, "%.3f"));
-    for (const double v : inspection.boxes_m[i].sizes()) row.push_back(figure(v, "%.3f"));
+    for (const double v : inspection.boxes_m[i].min()) row.push_back(figure("%.3f", v));
+    for (const double v : inspection.boxes_m[i].sizes()) row.push_back(figure("%.3f", v));
     boxes.push_back(row);
   }
   out << "Scans. Lengths are in the unit of the scans; working: points left of the sample after outlier removal;\n"
@@ -70,7 +64,7 @@ void print_matrix(const Inspection& inspection, const Eigen::MatrixXd& matrix, s
   for (const auto& s : inspection.scans) rows[0].push_back(s.file);
   for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
     std::vector<std::string> row{inspection.scans[static_cast<std::size_t>(i)].file};
-    for (Eigen::Index j = 0; j < matrix.cols(); ++j) row.push_back(i == j ? "-" : figure(matrix(i, j)));
+    for (Eigen::Index j = 0; j < matrix.cols(); ++j) row.push_back(i == j ? "-" : four_digits(matrix(i, j)));
     rows.push_back(row);
   }
   print_columns(rows, out);
@@ -80,7 +74,7 @@ void print_graph(const Inspection& inspection, const CorrespondenceGraph& graph,
   out << "\nCorrespondence measure: " << (paper ? "mean distance of nearest neighbours" : "1 - overlap")
       << "; smaller is closer\n";
   print_matrix(inspection, graph.measure, out);
-  out << "\nCorrespondence graph: measure below " << figure(graph.threshold)
+  out << "\nCorrespondence graph: measure below " << four_digits(graph.threshold)
       << (graph.threshold_from_data ? ", from the median of the pairs" : "") << "; " << graph.num_components
       << (graph.num_components == 1 ? " component\n" : " components\n");
   std::vector<std::vector<std::string>> rows{{"scan", "degree", "component", "connected to"}};

@@ -4,6 +4,7 @@
 
 #include "command.hpp"
 #include "console.hpp"
+#include "epsg_text.hpp"
 #include "pair_methods.hpp"
 #include "register_options.hpp"
 #include "register_table.hpp"
@@ -68,8 +69,10 @@ int cmd_register(const Arguments& arguments) {
   report_left_out(inputs, context);
   settle_coordinate_system(o, paths, context, survey);
 
+  OutputOptions clouds = o.clouds;
+  clouds.crs_text = epsg_text(survey.crs).value_or("");
   PipelineResult result = run_method(o, paths, guess, survey, context);
-  write_result(o.out, o.force, paths, result, o.pipeline, o.clouds, context,
+  write_result(o.out, o.force, paths, result, o.pipeline, clouds, context,
                {kVersion, command_line("register", arguments), o.initial_poses, started});
   console.finish();
   if (!o.quiet) {

@@ -77,12 +77,13 @@ constexpr Names<Refinement, 5> kRefinements{"refinement",
                                               {"annealing", Refinement::kAnnealing},
                                               {"both", Refinement::kDescentThenAnnealing}}}};
 
-constexpr Names<CloudFormat, 5> kFormats{"format",
+constexpr Names<CloudFormat, 6> kFormats{"format",
                                          {{{"ply", CloudFormat::kPly},
                                            {"las", CloudFormat::kLas},
                                            {"pcd", CloudFormat::kPcd},
                                            {"text", CloudFormat::kText},
-                                           {"e57", CloudFormat::kE57}}}};
+                                           {"e57", CloudFormat::kE57},
+                                           {"ptx", CloudFormat::kPtx}}}};
 constexpr Names<CloudColour, 2> kColours{"colour", {{{"keep", CloudColour::kKeep}, {"scan", CloudColour::kScan}}}};
 
 // What the command line holds as text before it becomes an enumeration.
@@ -177,15 +178,16 @@ po::options_description survey_options(SurveyOptions& o) {
       "fix", po::value(&o.fixed), "keep this scan where --init puts it; may be given many times")(
       "crs", value(o.crs),
       "coordinate system of that frame, for the files written: EPSG:n, well-known text or a file of it")(
-      "level-sigma", value(o.level_sigma_deg),
-      "[deg] scans are upright with this standard deviation, in the adjustment; 0: they need not be");
+      "level-sigma", po::value(&o.level_sigmas_deg),
+      "[deg] scans are upright with this standard deviation, in the adjustment; SCAN=DEG for one scan or file; 0: it "
+      "need not be; may be given many times");
   return survey;
 }
 
 po::options_description cloud_options(OutputOptions& o, Choices& c) {
   po::options_description clouds("Clouds written");
   clouds.add_options()("format", value(c.format),
-                       "ply, las (1.4), pcd, text or e57: of the merged cloud and of --each")(
+                       "ply, las (1.4), pcd, text, e57 or ptx: of the merged cloud and of --each")(
       "each", po::bool_switch(&o.each)->default_value(o.each),
       "every registered scan in the common frame in a file of its own, too: scans/")(
       "voxel", value(c.voxel),
@@ -403,8 +405,10 @@ void print_register_config(const RegisterOptions& options, std::ostream& out) {
   out << "# tcm-icp register --config FILE\n" << std::setprecision(std::numeric_limits<double>::max_digits10);
   for (const auto& unit : o.units) out << "unit = " << unit << '\n';
   for (const auto& fixed : o.survey.fixed) out << "fix = " << fixed << '\n';
+  for (const auto& sigma : o.survey.level_sigmas_deg) out << "level-sigma = " << sigma << '\n';
   for (const auto& option : description.options()) {
-    if (option->long_name() == "unit" || option->long_name() == "fix") continue;  // as many as were given, or none
+    const std::string& name = option->long_name();
+    if (name == "unit" || name == "fix" || name == "level-sigma") continue;  // as many as were given, or none
     const boost::any& v = map[option->long_name()].value();
     out << option->long_name() << " = ";
     if (const auto* text = boost::any_cast<std::string>(&v)) out << *text;

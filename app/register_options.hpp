@@ -30,11 +30,11 @@ struct ScanSetOptions {
 
 /// What defines the common frame in place of the reference scan.
 struct SurveyOptions {
-  std::string control;             ///< file of control points
-  std::string positions;           ///< file of scanners' positions
-  std::vector<std::string> fixed;  ///< scans that stay where the initial poses put them
-  std::string crs;                 ///< EPSG:n, well-known text, or a file of it
-  double level_sigma_deg = 0;      ///< 0: scans need not be upright
+  std::string control;                        ///< file of control points
+  std::string positions;                      ///< file of scanners' positions
+  std::vector<std::string> fixed;             ///< scans that stay where the initial poses put them
+  std::string crs;                            ///< EPSG:n, well-known text, or a file of it
+  std::vector<std::string> level_sigmas_deg;  ///< DEG, or SCAN=DEG; 0: need not be upright
 };
 
 enum class Method { kTcm, kIcp, kFeatures };

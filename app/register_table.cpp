@@ -1,24 +1,18 @@
 #include "register_table.hpp"
 
 #include <algorithm>
-#include <cstdio>
 #include <numbers>
 #include <optional>
 #include <ostream>
 #include <vector>
 
+#include "figure.hpp"
 #include "text_width.hpp"
 
 namespace tcm_icp::app {
 namespace {
 
 constexpr double kMmPerM = 1000, kDegPerRad = 180 / std::numbers::pi;
-
-std::string text(const char* format, double value) {
-  char buffer[32];
-  std::snprintf(buffer, sizeof buffer, format, value);
-  return buffer;
-}
 
 std::string verdict_of(const ScanPose& pose) {
   if (pose.status == ScanStatus::kReference) return "reference";
@@ -83,14 +77,14 @@ void print_header(std::size_t names, std::ostream& out) {
 std::vector<std::string> figures(const PipelineResult& result, std::size_t scan) {
   std::vector<std::string> cells(std::size(kColumns));
   if (const auto& evidence = result.evidence[scan]) {
-    cells[0] = text("%.0f", 100 * evidence->overlap);
-    cells[1] = text("%.0f", 100 * evidence->consensus());
-    cells[2] = text("%.3g", kMmPerM * evidence->median_residual_m);
+    cells[0] = figure("%.0f", 100 * evidence->overlap);
+    cells[1] = figure("%.0f", 100 * evidence->consensus());
+    cells[2] = figure("%.3g", kMmPerM * evidence->median_residual_m);
   }
   if (const PoseUncertainty* pose = uncertainty_of(result, scan)) {
     const double sigma_mm = kMmPerM * sigma_position_m(*pose);
-    cells[3] = pose->determined ? text(sigma_mm < 100 ? "%.2g" : "%.0f", sigma_mm) : "unknown";
-    cells[4] = pose->determined ? text("%.2g", kDegPerRad * sigma_rotation_rad(*pose)) : "unknown";
+    cells[3] = pose->determined ? figure(sigma_mm < 100 ? "%.2g" : "%.0f", sigma_mm) : "unknown";
+    cells[4] = pose->determined ? figure("%.2g", kDegPerRad * sigma_rotation_rad(*pose)) : "unknown";
   }
   return cells;
 }
@@ -106,7 +100,7 @@ std::string worst_sigma(const PipelineResult& result) {
   if (!worst) return "";
   const double sigma_mm = kMmPerM * sigma_position_m(result.uncertainty.poses[*worst]);
   const std::string length =
-      sigma_mm < kMmPerM ? text("%.2g", sigma_mm) + " mm" : text("%.3g", sigma_mm / kMmPerM) + " m";
+      sigma_mm < kMmPerM ? figure("%.2g", sigma_mm) + " mm" : figure("%.3g", sigma_mm / kMmPerM) + " m";
   return ", worst 1 sigma " + length + " (" + result.poses[*worst].file + ")";
 }
 

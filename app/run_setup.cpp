@@ -10,6 +10,7 @@
 #include "tcm_icp/io/pose_io.hpp"
 #include "tcm_icp/io/scan_path.hpp"
 #include "tcm_icp/io/scan_reader.hpp"
+#include "values_by_scan.hpp"
 
 namespace tcm_icp::app {
 
@@ -51,34 +52,26 @@ LengthUnit parse_unit(const std::string& option, const std::string& name) {
 
 }  // namespace
 
-bool is_called(const std::string& name, const std::filesystem::path& scan, const std::string& scan_name,
-               std::size_t number) {
-  const std::filesystem::path file = parse_scan_path(scan).file;
-  return name == scan_name || name == scan || name == file || name == file.filename() || name == std::to_string(number);
+std::vector<std::size_t> scans_called(const std::string& name, const std::vector<std::filesystem::path>& scans,
+                                      const std::string& option) {
+  const std::vector<std::string> names = scan_names(scans);
+  std::vector<std::size_t> found;
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    const std::filesystem::path file = parse_scan_path(scans[i]).file;
+    const bool is_called =
+        name == names[i] || name == scans[i] || name == file || name == file.filename() || name == std::to_string(i);
+    if (is_called) found.push_back(i);
+  }
+  if (!found.empty()) return found;
+  throw InvalidOptions(option + ": no scan is called '" + name + "'" + did_you_mean(name, names));
 }
 
 std::vector<std::filesystem::path> with_units(const std::vector<std::filesystem::path>& scans,
                                               const std::vector<std::string>& units) {
-  const std::vector<std::string> names = scan_names(scans);
+  const auto unit_of = values_by_scan<LengthUnit>(units, "--unit", scans, parse_unit);
   std::vector<std::filesystem::path> out = scans;
-  for (const auto& option : units) {
-    if (option.find('=') != std::string::npos) continue;
-    for (auto& scan : out) scan = with_unit(scan, parse_unit(option, option));
-  }
-  for (const auto& option : units) {
-    const std::size_t mark = option.rfind('=');
-    if (mark == std::string::npos) continue;
-    const std::string name = option.substr(0, mark);
-    const LengthUnit unit = parse_unit(option, option.substr(mark + 1));
-    bool found = false;
-    for (std::size_t i = 0; i < scans.size(); ++i) {
-      if (!is_called(name, scans[i], names[i], i)) continue;
-      out[i] = with_unit(scans[i], unit);
-      found = true;
-    }
-    if (!found) {
-      throw InvalidOptions("--unit " + option + ": no scan is called '" + name + "'" + did_you_mean(name, names));
-    }
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    if (unit_of[i]) out[i] = with_unit(scans[i], *unit_of[i]);
   }
   return out;
 }

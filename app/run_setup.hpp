@@ -23,9 +23,11 @@ void report_left_out(const ScanInputs& inputs, const RunContext& context);
 std::string report_coordinate_systems(const std::vector<std::filesystem::path>& scans, const std::string& what,
                                       const RunContext& context);
 
-/// Whether `name` stands for this scan on the command line: its name, number, path, or the file it is in.
-bool is_called(const std::string& name, const std::filesystem::path& scan, const std::string& scan_name,
-               std::size_t number);
+/// Indices of the scans that `name` stands for on the command line: their name, number, path, or the file they are in.
+/// @param option  for the message, as "--fix a.ply"
+/// @throws InvalidOptions  none is called that
+std::vector<std::size_t> scans_called(const std::string& name, const std::vector<std::filesystem::path>& scans,
+                                      const std::string& option);
 
 /// The option --bin. @throws InvalidOptions
 BinLayout parse_bin(const std::string& text);

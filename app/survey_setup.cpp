@@ -1,45 +1,37 @@
 #include "survey_setup.hpp"
 
 #include <algorithm>
+#include <boost/algorithm/string/trim.hpp>
 #include <cctype>
+#include <charconv>
 #include <fstream>
 #include <iterator>
 #include <numbers>
 
 #include "run_setup.hpp"
-#include "suggestion.hpp"
 #include "tcm_icp/core/error.hpp"
 #include "tcm_icp/io/pose_io.hpp"
 #include "tcm_icp/io/scan_path.hpp"
 #include "tcm_icp/survey/control_file.hpp"
+#include "values_by_scan.hpp"
 
 namespace tcm_icp::app {
 namespace {
 
+constexpr const char* kWithoutFrame = ": without --control, --gnss or --fix results are in the frame of a scan";
+
+bool has_frame(const SurveyOptions& s) { return !s.control.empty() || !s.positions.empty() || !s.fixed.empty(); }
+
 void check(const RegisterOptions& o) {
   const SurveyOptions& s = o.survey;
-  const bool has_frame = !s.control.empty() || !s.positions.empty() || !s.fixed.empty();
-  if (has_frame && o.method != Method::kTcm) {
+  if (has_frame(s) && o.method != Method::kTcm) {
     throw InvalidOptions("--control, --gnss and --fix belong to --method tcm; leave --method out");
   }
   if (!s.fixed.empty() && o.initial_poses.empty()) {
     throw InvalidOptions("--fix " + s.fixed.front() +
                          ": keeps a scan where --init puts it; give --init POSES.json, too");
   }
-  if (!(s.level_sigma_deg >= 0 && s.level_sigma_deg < 45)) {
-    throw InvalidOptions("--level-sigma must be at least 0 and below 45 degrees, not " +
-                         std::to_string(s.level_sigma_deg));
-  }
-  if (has_frame) return;
-  const char* const without = ": without --control, --gnss or --fix results are in the frame of a scan";
-  if (!s.crs.empty()) throw InvalidOptions("--crs" + std::string(without));
-  if (s.level_sigma_deg > 0) throw InvalidOptions("--level-sigma" + std::string(without));
-}
-
-std::string trimmed(const std::string& text) {
-  constexpr const char* kBlanks = " \t\r\n";
-  const std::size_t begin = text.find_first_not_of(kBlanks);
-  return begin == std::string::npos ? "" : text.substr(begin, text.find_last_not_of(kBlanks) - begin + 1);
+  if (!s.crs.empty() && !has_frame(s)) throw InvalidOptions("--crs" + std::string(kWithoutFrame));
 }
 
 bool is_epsg(const std::string& text) {
@@ -57,11 +49,12 @@ bool is_well_known_text(const std::string& text) {
 }
 
 std::string read_crs(const std::string& option) {
-  std::string text = trimmed(option);
+  std::string text = boost::algorithm::trim_copy(option);
   if (is_epsg(text) || is_well_known_text(text)) return text;
   std::ifstream in(option, std::ios::binary);
   if (in && !std::filesystem::is_directory(option)) {
-    text = trimmed({std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()});
+    text.assign(std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>());
+    boost::algorithm::trim(text);
     if (is_epsg(text) || is_well_known_text(text)) return text;
     throw InputError(option, "", "holds no coordinate system", "it must be EPSG:n or well-known text (.wkt, .prj)");
   }
@@ -78,6 +71,23 @@ void add_priors(const RegisterOptions& o, const std::vector<std::string>& names,
   }
 }
 
+double parse_level_sigma(const std::string& option, const std::string& text) {
+  double degrees = 0;
+  const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), degrees);
+  if (error == std::errc() && rest == text.data() + text.size() && degrees >= 0 && degrees < 45) return degrees;
+  throw InvalidOptions("--level-sigma " + option + ": give degrees, at least 0 and below 45, or SCAN=DEGREES");
+}
+
+void add_levels(const SurveyOptions& options, const std::vector<std::filesystem::path>& scans,
+                const std::vector<std::string>& names, Survey& survey) {
+  const auto sigmas_deg = values_by_scan<double>(options.level_sigmas_deg, "--level-sigma", scans, parse_level_sigma);
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    if (sigmas_deg[i].value_or(0) > 0) survey.levels.push_back({names[i], *sigmas_deg[i] * std::numbers::pi / 180});
+  }
+  if (survey.levels.empty() || has_frame(options)) return;
+  throw InvalidOptions("--level-sigma" + std::string(kWithoutFrame));
+}
+
 }  // namespace
 
 Survey read_survey(const RegisterOptions& options, const std::vector<std::filesystem::path>& scans) {
@@ -91,18 +101,14 @@ Survey read_survey(const RegisterOptions& options, const std::vector<std::filesy
   }
   const std::vector<std::string> names = scan_names(scans);
   for (const auto& fixed : s.fixed) {
-    bool found = false;
-    for (std::size_t i = 0; i < scans.size(); ++i) {
-      if (!is_called(fixed, scans[i], names[i], i)) continue;
+    for (const std::size_t i : scans_called(fixed, scans, "--fix " + fixed)) {
       if (std::find(survey.fixed.begin(), survey.fixed.end(), names[i]) == survey.fixed.end()) {
         survey.fixed.push_back(names[i]);
       }
-      found = true;
     }
-    if (!found) throw InvalidOptions("--fix " + fixed + ": no scan is called that" + did_you_mean(fixed, names));
   }
   add_priors(options, names, survey);
-  survey.sigma_level_rad = s.level_sigma_deg * std::numbers::pi / 180;
+  add_levels(s, scans, names, survey);
   if (!s.crs.empty()) survey.crs = read_crs(s.crs);
   return survey;
 }

@@ -2,23 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <ostream>
 #include <string>
 
+#include "figure.hpp"
 #include "text_width.hpp"
 
 namespace tcm_icp::app {
 namespace {
 
 constexpr std::size_t kFigureWidth = 8, kStatusWidth = 14;
-
-std::string text(const char* format, double value) {
-  if (!std::isfinite(value)) return "-";
-  char buffer[32];
-  std::snprintf(buffer, sizeof buffer, format, value);
-  return buffer;
-}
 
 std::string scan_of(const PointResidual& p) { return p.point.scan.empty() ? "*" : p.point.scan; }
 
@@ -43,9 +36,9 @@ void print_survey_table(const SurveyRecord& survey, std::size_t width, std::ostr
   for (const auto& p : survey.points) {
     out << left(shortened(p.point.name, names), names) << "  " << left(shortened(scan_of(p), scans), scans) << "  "
         << left(to_string(p.status), kStatusWidth);
-    for (int axis = 0; axis < 3; ++axis) out << "  " << right(text("%.1f", 1000 * p.residual_m[axis]), kFigureWidth);
-    out << "  " << right(text("%.1f", 1000 * p.sigma_m.norm() / std::sqrt(3.0)), kFigureWidth) << "  "
-        << right(text("%.1f", p.test), kFigureWidth) << '\n';
+    for (int axis = 0; axis < 3; ++axis) out << "  " << right(figure("%.1f", 1000 * p.residual_m[axis]), kFigureWidth);
+    out << "  " << right(figure("%.1f", 1000 * p.sigma_m.norm() / std::sqrt(3.0)), kFigureWidth) << "  "
+        << right(figure("%.1f", p.test), kFigureWidth) << '\n';
   }
 }
 

@@ -91,7 +91,8 @@ CloudFormat format_of(const std::string& name) {
   if (name == "pcd") return CloudFormat::kPcd;
   if (name == "text") return CloudFormat::kText;
   if (name == "e57") return CloudFormat::kE57;
-  throw InvalidOptions("format '" + name + "': choose one of ply, las, pcd, text, e57");
+  if (name == "ptx") return CloudFormat::kPtx;
+  throw InvalidOptions("format '" + name + "': choose one of ply, las, pcd, text, e57, ptx");
 }
 
 void bind_errors(py::module_& m) {

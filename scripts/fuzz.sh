@@ -8,7 +8,8 @@ usage() {
   cat <<'TEXT'
 Usage: fuzz.sh SECONDS [TARGET...]
   SECONDS  for each target
-  TARGET   ply, las, pcd, e57, ptx, pts, xyz, csv, kitti, nuscenes, gzip, poses, truth, config; all of them by default
+  TARGET   ply, las, pcd, e57, ptx, pts, xyz, csv, kitti, nuscenes, gzip, poses, truth, control, positions,
+           priors, config; all of them by default
 Needs clang (install_dependencies.sh --checks) and builds build/fuzz. Files found interesting are kept in
 build/fuzz/corpus, those that break a reader in build/fuzz/crashes. TCM_ICP_FORMATS=FOLDER adds the files of other
 programs in it, by extension, to the first ones. The exit status is 1 where a reader broke.

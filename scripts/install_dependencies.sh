@@ -5,10 +5,12 @@ set -euo pipefail
 
 usage() {
   cat <<'TEXT'
-Usage: install_dependencies.sh [--tests] [--checks] [--conventional] [--paper] [--benchmarks] [--comparison]
-                               [--python] [--packages] [--site]
+Usage: install_dependencies.sh [--tests] [--checks] [--crs] [--conventional] [--outside] [--paper] [--benchmarks]
+                               [--comparison] [--python] [--packages] [--site]
   --tests       also what the tests need (GoogleTest; for the Python module pybind11, NumPy)
   --checks      also what the format and script checks and scripts/fuzz.sh need (clang-format, shellcheck, clang)
+  --crs         also what the text of EPSG codes in LAS and E57 needs (PROJ)
+  --outside     also what scripts/check_formats_outside.py opens files with (CloudCompare, PCL's tools, Open3D for Python)
   --conventional
                 also what register --method icp and features need (PCL: with its dependencies about 1 GB)
   --paper       also what scripts/paper_tables.py and scripts/ablations.py need (PCL, numpy, matplotlib)
@@ -29,6 +31,8 @@ while (($# > 0)); do
     --tests) packages+=(libgtest-dev pybind11-dev python3-dev python3-numpy) ;;
     --checks) packages+=(clang-format shellcheck clang libclang-rt-14-dev) ;;
     --conventional) packages+=(libpcl-dev) ;;
+    --outside) packages+=(cloudcompare pcl-tools python3-numpy python3-open3d) ;;
+    --crs) packages+=(libproj-dev) ;;
     --paper) packages+=(libpcl-dev python3-matplotlib python3-numpy) ;;
     --benchmarks) packages+=(libbenchmark-dev libnanoflann-dev libpcl-dev python3) ;;
     --comparison) packages+=(libbenchmark-dev libpcl-dev python3-numpy python3-open3d) ;;

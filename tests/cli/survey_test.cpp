@@ -227,6 +227,33 @@ TEST_F(RegisterSurvey, AScanThatNoLinkHoldsFollowsItsOwnTargets) {
   EXPECT_LT(difference_m(poses.scans[0].T_reference_scan, pose(0), 5), 0.03);
 }
 
+#ifdef TCM_ICP_HAVE_PROJ
+TEST_F(RegisterSurvey, AnyCodeOfTheDatabaseBecomesTextInLas) {
+  std::string csv = "name,scan,x,y,z,X,Y,Z,sigma\n";
+  Rng rng = make_stream(4, "codes");
+  for (int k = 0; k < 4; ++k) {
+    const Eigen::Vector3d place = pose(0) * noise(rng, 6);
+    const std::string name = std::string("T") + std::to_string(k);
+    csv += name + ",000.ply," + numbers(pose(0).inverse() * place) + "," + numbers(place) + ",0.003\n";
+  }
+  folder_.write("control.csv", csv);
+  const auto run_with = [&](const std::string& crs) {
+    return run(Words{"register"} + town_scans({0, 1}) +
+               Words{"--out", "out", "--force", "--control", "control.csv", "--format", "las", "--crs", crs} + kSmall);
+  };
+  RunResult result = run_with("EPSG:31467");
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const std::string text = ScanReader(folder() / "out/registered.las").coordinate_system();
+  EXPECT_TRUE(text.starts_with("PROJCS[\"DHDN / 3-degree Gauss-Kruger zone 3\"")) << text;
+  EXPECT_EQ(text.find('\n'), std::string::npos);
+  EXPECT_EQ(read_pose_file(folder() / "out/poses.json").crs, "EPSG:31467");
+  result = run_with("EPSG:999999");
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.err.find("does not name the coordinate system EPSG:999999"), std::string::npos) << result.err;
+  EXPECT_EQ(ScanReader(folder() / "out/registered.las").coordinate_system(), "");
+}
+#endif
+
 TEST_F(RegisterSurvey, WithoutControlOnItsScansTheFrameIsTheReferences) {
   folder_.write("control.csv", "name,scan,x,y,z,X,Y,Z,sigma,use\nC,000.ply,1,2,3,4,5,6,0.01,check\n");
   const RunResult result =
@@ -254,6 +281,9 @@ TEST_F(RegisterSurveyOptions, RefuseWhatMakesNoSense) {
   expect_refusal(control + Words{"--crs", "Gauss"}, 1, {"--crs 'Gauss'", "EPSG:n"});
   expect_refusal(control + Words{"--crs", "words.wkt"}, 2, {"words.wkt", "no coordinate system"});
   expect_refusal(control + Words{"--level-sigma", "90"}, 1, {"--level-sigma", "90"});
+  expect_refusal(control + Words{"--level-sigma", "0.01", "--level-sigma", "001.ply=little"}, 1,
+                 {"--level-sigma 001.ply=little", "SCAN=DEGREES"});
+  expect_refusal(control + Words{"--level-sigma", "007.ply=0.01"}, 1, {"--level-sigma 007.ply=0.01", "'007.ply'"});
   expect_refusal(control + Words{"--profile", "paper"}, 1, {"--profile robust"});
   expect_refusal(control + Words{"--method", "icp"}, 1, {"--method"});
 }

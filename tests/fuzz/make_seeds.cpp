@@ -44,8 +44,8 @@ void write_own(const fs::path& folder) {
   }
   block.attributes.resize(bytes.size());
   std::memcpy(block.attributes.data(), bytes.data(), bytes.size());
-  for (const auto format :
-       {CloudFormat::kPly, CloudFormat::kLas, CloudFormat::kPcd, CloudFormat::kText, CloudFormat::kE57}) {
+  for (const auto format : {CloudFormat::kPly, CloudFormat::kLas, CloudFormat::kPcd, CloudFormat::kText,
+                            CloudFormat::kE57, CloudFormat::kPtx}) {
     RegisteredCloudOptions options;
     options.format = format;
     options.reference = "a";
@@ -176,8 +176,22 @@ void write_json(const fs::path& folder) {
                             "], \"tolerance\": {\"rotation_deg\": 1, \"rmse_m\": 0.1}, \"overlap\": [[1,0.5],[0.4,1]]}";
   write(folder / "truth/a", truth);
   write(folder / "poses/init", truth);
+  write(folder / "priors/a",
+        "{\"scans\": [{\"file\": \"b.ply\", \"sigma_position_m\": 0.02, \"sigma_rotation_deg\": 0.1, " + one + "]}");
   write(folder / "config/a",
         "seed = 7\nsolver = glpk\nlevel = true\nvoxel = 0.05\n# text\nsampling.working-points = 20000\n");
+}
+
+void write_survey(const fs::path& folder) {
+  write(folder / "control/measured",
+        "name,scan,x,y,z,X,Y,Z,sigma,sigma_scan,use\nT1,a.ply,4.1,-2.5,1,512345.678,5412301.112,287.513,0.001,0.003,"
+        "control\n"
+        "T1,hall.ptx#2,-9.4,0.7,1.1,512345.678,5412301.112,287.513,0.001,,check\n");
+  write(folder / "control/excel",
+        "\xEF\xBB\xBF# targets\r\nname;scan;x;y;z;Easting;Northing;Height;sigma_E;sigma_N;sigma_H\r\n"
+        "\"T \"\"1\"\"\";*;1;2;3;4;5;6;.01;.01;.02\r\n");
+  write(folder / "positions/origins", "scan,X,Y,Z,sigma\na.ply,1,2,3,0.5\nhall.ptx#1,4,5,6,0.5\n");
+  write(folder / "positions/lever", "scan;E;N;H;sigma_E;sigma_N;sigma_H;x;y;z\na.ply;1e3;2;+3;.5;.5;1;0;0;-.1\n");
 }
 
 }  // namespace
@@ -193,5 +207,6 @@ int main(int argc, char** argv) {
   write_text(folder);
   write_gzip(folder);
   write_json(folder);
+  write_survey(folder);
   return 0;
 }

@@ -8,6 +8,7 @@
 #include <cstring>
 
 #include "io/binary_text.hpp"
+#include "io/cloud_blocks.hpp"
 #include "io/temp_files.hpp"
 #include "tcm_icp/core/error.hpp"
 #include "tcm_icp/core/random.hpp"
@@ -21,17 +22,13 @@ namespace {
 using test::attribute_of;
 using test::error_of;
 using test::joined;
+using test::packed;
 using test::read_text;
 using test::read_whole;
 using test::TempFolder;
+using test::to_utm;
 using test::WholeScan;
 using enum ScalarType;
-
-std::vector<std::byte> packed(const std::string& bytes) {
-  std::vector<std::byte> out(bytes.size());
-  std::memcpy(out.data(), bytes.data(), bytes.size());
-  return out;
-}
 
 const std::vector<Attribute> kRich = {{"intensity", kUInt16}, {"red", kUInt8},        {"green", kUInt8},
                                       {"blue", kUInt8},       {"gps_time", kFloat64}, {"reflectance", kFloat32},
@@ -43,13 +40,6 @@ PointBlock rich_block() {
   const std::string b = joined(std::uint16_t{1}, std::uint8_t{1}, std::uint8_t{2}, std::uint8_t{3}, -1e300, -1e-30F,
                                std::int32_t{2147483647}, std::uint8_t{8});
   return {{{1, 2, 3}, {-40, 55.5, 0.125}}, packed(a + b)};
-}
-
-/// A turn and a shift to projected coordinates.
-Eigen::Isometry3d to_utm() {
-  Twist twist;
-  twist << 0.7, -1.1, 2.0, 500000, 5000000, 100;
-  return isometry_from_twist(twist);
 }
 
 Eigen::AlignedBox3d box_of(const Points& points, const Eigen::Isometry3d& T) {

@@ -8,6 +8,7 @@
 #include <pugixml.hpp>
 
 #include "io/binary_text.hpp"
+#include "io/cloud_blocks.hpp"
 #include "io/e57_file.hpp"
 #include "io/temp_files.hpp"
 #include "tcm_icp/core/error.hpp"
@@ -26,6 +27,7 @@ using test::joined;
 using test::read_text;
 using test::read_whole;
 using test::TempFolder;
+using test::to_utm;
 using test::WholeScan;
 using enum ScalarType;
 
@@ -34,12 +36,6 @@ const std::vector<Attribute> kAll = {{"intensity", kUInt16},     {"red", kUInt8}
                                      {"ny", kFloat32},           {"nz", kFloat32},   {"rowIndex", kInt32},
                                      {"isColorInvalid", kUInt8}, {"label", kInt8},   {"a:b", kInt16},
                                      {"reflectance", kFloat32},  {"count", kUInt32}};
-
-Eigen::Isometry3d some_pose() {
-  Twist twist;
-  twist << 0.7, -1.1, 2.0, 500000, 5000000, 100;
-  return isometry_from_twist(twist);
-}
 
 PointBlock points_with_all(std::size_t count) {
   PointBlock block;
@@ -52,8 +48,7 @@ PointBlock points_with_all(std::size_t count) {
                     static_cast<std::uint8_t>(i % 3 == 0), static_cast<std::int8_t>(-128 + static_cast<int>(i % 256)),
                     std::int16_t{-32768}, 0.1F, std::uint32_t{4294967295U});
   }
-  block.attributes.resize(bytes.size());
-  std::memcpy(block.attributes.data(), bytes.data(), bytes.size());
+  block.attributes = test::packed(bytes);
   return block;
 }
 
@@ -78,7 +73,7 @@ std::filesystem::path write_two(const TempFolder& folder, std::size_t count, con
   };
   writer.write(0, part(0, half), kAll, Eigen::Isometry3d::Identity());
   writer.write(0, part(half, count), kAll, Eigen::Isometry3d::Identity());
-  writer.write(1, {{{1, 2, 3}, {-4, 5, 6.5}}, {}}, {}, some_pose());
+  writer.write(1, {{{1, 2, 3}, {-4, 5, 6.5}}, {}}, {}, to_utm());
   writer.finish();
   EXPECT_EQ(writer.num_points(), count + 2);
   return path;
@@ -269,7 +264,7 @@ TEST(E57Writing, NothingIsLostOnTheWayBack) {
   EXPECT_TRUE(bare.attributes.empty());
   const auto pose = ScanReader(scans[1]).header_pose();
   ASSERT_TRUE(pose.has_value());
-  EXPECT_TRUE(pose->isApprox(some_pose(), 1e-15));
+  EXPECT_TRUE(pose->isApprox(to_utm(), 1e-15));
   EXPECT_EQ(ScanReader(scans[0]).header_pose()->matrix(), Eigen::Matrix4d::Identity());
 }
 

@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstring>
 #include <limits>
 
+#include "io/cloud_blocks.hpp"
 #include "io/ply_text.hpp"
 #include "io/temp_files.hpp"
 #include "tcm_icp/core/error.hpp"
@@ -19,18 +19,13 @@ namespace {
 using test::attribute_of;
 using test::bytes_of;
 using test::error_of;
+using test::packed;
 using test::read_text;
 using test::read_whole;
 using test::TempFolder;
 using test::WholeScan;
 
 const double kNan = std::numeric_limits<double>::quiet_NaN();
-
-std::vector<std::byte> packed(const std::string& bytes) {
-  std::vector<std::byte> out(bytes.size());
-  std::memcpy(out.data(), bytes.data(), bytes.size());
-  return out;
-}
 
 Eigen::Isometry3d large_motion() {
   Twist twist;

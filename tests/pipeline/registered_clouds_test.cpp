@@ -201,6 +201,33 @@ TEST(RegisteredClouds, PcdFarAwayIsWarnedOf) {
   EXPECT_NE(warnings.find("registered.pcd has its coordinates as doubles"), std::string::npos) << warnings;
 }
 
+TEST(RegisteredClouds, PtxHasEachScanRawWithItsPoseAndSaysWhatItLeavesOut) {
+  const TempFolder folder;
+  const Scene scene(folder);
+  OutputOptions options;
+  options.format = CloudFormat::kPtx;
+  options.each = true;
+  RunContext context;
+  std::string warnings;
+  context.log = [&](LogLevel level, std::string_view text) {
+    if (level == LogLevel::kWarning) warnings += text;
+  };
+  write_registered_clouds(folder.path(), scene.paths, scene.result, options, context);
+  EXPECT_NE(warnings.find("registered.ptx is without time: PTX has"), std::string::npos) << warnings;
+  const auto scans = scans_in(folder.path() / "registered.ptx");
+  ASSERT_EQ(scans.size(), 2U);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const fs::path own = folder.path() / ("scans/" + scene.paths[i].filename().string() + ".ptx");
+    EXPECT_EQ(read_whole(scans[i]).block.points, read_whole(scene.paths[i]).block.points);
+    EXPECT_EQ(read_whole(own).block.points, read_whole(scene.paths[i]).block.points);
+    for (const fs::path& path : {scans[i], own}) {
+      const auto pose = ScanReader(path).header_pose();
+      ASSERT_TRUE(pose.has_value());
+      EXPECT_TRUE(pose->isApprox(scene.result.poses[i].T_reference_scan, 1e-14));
+    }
+  }
+}
+
 TEST(RegisteredClouds, ScansWhoseFilesWouldHaveOneNameDoNotOverwriteEachOther) {
   const TempFolder folder;
   Scene scene(folder);

@@ -4,6 +4,7 @@
 
 #include "pipeline/scene_files.hpp"
 #include "tcm_icp/core/error.hpp"
+#include "tcm_icp/core/rigid_transform.hpp"
 
 namespace tcm_icp {
 namespace {
@@ -111,6 +112,24 @@ TEST(SurveyFrame, AnyTargetMeasuredInTheCommonFrameMovesTheSet) {
   EXPECT_LT(places.error_m(after, 0), places.files.scene.spacing_m / 4);
   const Eigen::Isometry3d moved = after.poses[0].T_reference_scan * before.poses[1].T_reference_scan;
   EXPECT_LT((moved.translation() - after.poses[1].T_reference_scan.translation()).norm(), 1e-8);  // as one
+}
+
+TEST(SurveyFrame, LevelsCountForTheScansThatHaveThem) {
+  const TempFolder folder;
+  TwoPlaces places(folder);
+  const Eigen::Isometry3d upright = kUtm * Eigen::AngleAxisd(0.8, Eigen::Vector3d::UnitZ());
+  places.add_targets(1, 2);  // about the line through both the frame turns freely
+  for (auto& point : places.survey.points) point.given = upright * point.measured;
+  EXPECT_EQ(places.run().survey.num_rotations, 2);
+  places.survey.levels = {{"1.ply", 1e-4}};
+  const PipelineResult own = places.run();
+  EXPECT_EQ(own.survey.num_rotations, 3);
+  EXPECT_LT(rotation_angle_rad(own.poses[1].T_reference_scan.linear().transpose() * upright.linear()), 2e-3);
+  places.survey.sigma_level_rad = 1e-4;
+  places.survey.levels = {{"0.ply", 0}};  // which does not stand upright
+  EXPECT_EQ(places.run().poses[1].T_reference_scan.matrix(), own.poses[1].T_reference_scan.matrix());
+  places.survey.levels = {{"7.ply", 1e-4}};
+  EXPECT_THROW(places.run(), InvalidOptions);
 }
 
 TEST(SurveyFrame, TheNumberOfThreadsChangesNoBit) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include "core/cross_matrix.hpp"
 #include "survey/survey_equations.hpp"
 #include "tcm_icp/core/random.hpp"
 #include "tcm_icp/core/rigid_transform.hpp"

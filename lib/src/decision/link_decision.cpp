@@ -1,22 +1,12 @@
 #include "decision/link_decision.hpp"
 
 #include <cmath>
-#include <cstdio>
 
 #include "core/acceptance.hpp"
+#include "core/figure_text.hpp"
 #include "links/link_likelihood.hpp"
 
 namespace tcm_icp {
-namespace {
-
-std::string percent(double share) {
-  char text[16];
-  std::snprintf(text, sizeof text, "%.0f %%", 100 * share);
-  return text;
-}
-
-}  // namespace
-
 LinkRecord judge_link(std::size_t a, std::size_t b, const LinkMeasurements& m, const SetReference& set) {
   LinkRecord out;
   out.a = a;

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <numeric>
 
 #include "core/acceptance.hpp"
+#include "core/figure_text.hpp"
 #include "links/feature_scales.hpp"
 #include "tcm_icp/core/error.hpp"
 #include "tcm_icp/core/statistics.hpp"
@@ -35,18 +35,6 @@ constexpr double kLeastSigma = 0.01, kMostSigma = 2;  // in coarse voxels
 constexpr std::size_t kNumReasons = static_cast<std::size_t>(Reason::kTooFewPoints) + 1;
 
 double agreeing(const AlignmentEvidence& e) { return e.consensus() * static_cast<double>(e.num_points); }
-
-std::string percent(double share) {
-  char text[16];
-  std::snprintf(text, sizeof text, "%.0f %%", 100 * share);
-  return text;
-}
-
-std::string figure(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
-  return text;
-}
 
 // What features belong to what can be said of a scan.
 Reason reason_of(std::size_t feature) {

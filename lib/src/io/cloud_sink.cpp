@@ -1,29 +1,17 @@
 #include "cloud_sink.hpp"
 
-#include <utility>
-
-#include "tcm_icp/core/error.hpp"
+#include "scalar.hpp"
 
 namespace tcm_icp {
 
-CloudSink::CloudSink(std::filesystem::path path) : path_(std::move(path)) {
-  stream_.open(path_, std::ios::binary | std::ios::trunc);
-  if (!stream_) throw OutputError(path_, "cannot be written", "check that the folder is there and may be written to");
-}
-
-void CloudSink::put(const void* bytes, std::size_t size) {
-  stream_.write(static_cast<const char*>(bytes), static_cast<std::streamsize>(size));
-  if (!stream_) throw OutputError(path_, "cannot be written", "check the free space on the disk");
-}
-
-void CloudSink::go_to(std::uint64_t position) {
-  stream_.seekp(static_cast<std::streamoff>(position));  // writes what is buffered first
-}
-
 void CloudSink::finish(std::uint64_t num_points) {
   complete(num_points);
-  stream_.close();  // fails where the last bytes do not find room
-  if (!stream_) throw OutputError(path_, "cannot be written", "check the free space on the disk");
+  file_.close();
+}
+
+std::uint8_t colour_byte(const std::byte* bytes, ScalarType type) {
+  const double value = load_scalar(bytes, type);
+  return static_cast<std::uint8_t>(type == ScalarType::kUInt8 ? value : value / 257 + 0.5);
 }
 
 std::string count_lines(const std::string& comment, const std::string& text, std::uint64_t count) {

@@ -5,11 +5,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
+#include "output_file.hpp"
 #include "tcm_icp/io/registered_cloud_writer.hpp"
 
 namespace tcm_icp {
@@ -36,7 +38,7 @@ struct RecordLayout {
 class CloudSink {
  public:
   /// @throws OutputError  if the file cannot be opened
-  explicit CloudSink(std::filesystem::path path);
+  explicit CloudSink(std::filesystem::path path) : file_(std::move(path)) {}
   virtual ~CloudSink() = default;
 
   /// @throws OutputError  if the file cannot be written
@@ -48,14 +50,13 @@ class CloudSink {
  protected:
   virtual void complete(std::uint64_t num_points) = 0;
 
-  void put(const void* bytes, std::size_t size);
-  void put(const std::string& text) { put(text.data(), text.size()); }
-  void go_to(std::uint64_t position);
-  const std::filesystem::path& path() const { return path_; }
+  void put(const void* bytes, std::size_t size) { file_.put(bytes, size); }
+  void put(std::string_view text) { file_.put(text); }
+  void go_to(std::uint64_t position) { file_.go_to(position); }
+  const std::filesystem::path& path() const { return file_.path(); }
 
  private:
-  std::filesystem::path path_;
-  std::ofstream stream_;
+  OutputFile file_;
 };
 
 /// @throws OutputError   if the file cannot be written, or its format cannot hold such points
@@ -66,6 +67,9 @@ std::unique_ptr<CloudSink> open_pcd(std::filesystem::path path, const RecordLayo
                                     const RegisteredCloudOptions& options);
 std::unique_ptr<CloudSink> open_las(std::filesystem::path path, const RecordLayout& layout,
                                     const RegisteredCloudOptions& options);
+
+/// A colour of 8 or 16 bits in 8: 65535 becomes 255.
+std::uint8_t colour_byte(const std::byte* bytes, ScalarType type);
 
 /// A number of points in a header that may be overwritten in place: a comment before it takes the digits' room.
 std::string count_lines(const std::string& comment, const std::string& text, std::uint64_t count);

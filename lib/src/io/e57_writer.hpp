@@ -11,27 +11,22 @@
 #include "cloud_sink.hpp"
 #include "e57_page_writer.hpp"
 #include "e57_xml.hpp"
+#include "posed_scans_sink.hpp"
 
 namespace tcm_icp {
 
 /// Attributes that E57 has no field for are written with this prefix, as its rules for extensions have it.
 inline constexpr const char* kE57Prefix = "tcm:";
 
-class E57Writer {
+class E57Writer : public PosedScansSink {
  public:
   /// @throws OutputError  if the file cannot be opened
   explicit E57Writer(std::filesystem::path path);
 
-  /// Ends the scan before. @throws OutputError  if a scan has more columns than a packet of the format can hold
-  void begin_scan(const std::string& name, const Eigen::Isometry3d& T_file_scan, const RecordLayout& layout);
-
-  /// Appends points of the present scan: records of its layout, with coordinates in its own frame.
-  void write(const std::byte* records, std::size_t count);
-
-  /// Ends the last scan, writes the XML part and closes the file. Call once.
-  /// @param description        of every scan, for a person
-  /// @param coordinate_system  well-known text; empty: not told
-  void finish(const std::string& description, const std::string& coordinate_system);
+  /// @throws OutputError  also if a scan has more columns than a packet of the format can hold
+  void begin_scan(const std::string& name, const Eigen::Isometry3d& T_file_scan, const RecordLayout& layout) override;
+  void write(const std::byte* records, std::size_t count) override;
+  void finish(const std::string& description, const std::string& coordinate_system) override;
 
  private:
   struct Scan : E57WrittenScan {

@@ -1,25 +1,21 @@
 #include "e57_xml.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cstring>
 
+#include "core/unit_quaternion.hpp"
 #include "core/xml_text.hpp"
+#include "number_text.hpp"
 
 namespace tcm_icp {
 namespace {
-
-std::string digits(double value) {
-  std::array<char, 32> text;
-  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
-}
 
 std::string text_element(const std::string& name, std::string_view text) {
   return "<" + name + " type=\"String\">" + xml_escaped(text) + "</" + name + ">\n";
 }
 
 std::string float_element(const std::string& name, double value) {
-  return "<" + name + " type=\"Float\">" + digits(value) + "</" + name + ">\n";
+  return "<" + name + " type=\"Float\">" + shortest_digits(value) + "</" + name + ">\n";
 }
 
 std::string integer_element(const std::string& name, std::int64_t value) {
@@ -31,9 +27,7 @@ std::string structure(const std::string& name, const std::string& content) {
 }
 
 std::string pose_xml(const Eigen::Isometry3d& T) {
-  Eigen::Quaterniond q(T.linear());
-  q.normalize();
-  if (q.w() < 0) q.coeffs() *= -1;
+  const Eigen::Quaterniond q = unit_quaternion(T);
   const Eigen::Vector3d t = T.translation();
   return structure("pose", structure("rotation", float_element("w", q.w()) + float_element("x", q.x()) +
                                                      float_element("y", q.y()) + float_element("z", q.z())) +

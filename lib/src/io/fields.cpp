@@ -3,8 +3,6 @@
 namespace tcm_icp {
 namespace {
 
-constexpr std::string_view kBlanks = " \t";
-
 void split_at_blanks(std::string_view line, std::vector<std::string_view>& fields) {
   const char* at = line.data();
   const char* const end = at + line.size();
@@ -20,10 +18,10 @@ void split_at_blanks(std::string_view line, std::vector<std::string_view>& field
 
 }  // namespace
 
-std::string_view trimmed(std::string_view text) {
-  const auto first = text.find_first_not_of(kBlanks);
+std::string_view trimmed(std::string_view text, std::string_view blanks) {
+  const auto first = text.find_first_not_of(blanks);
   if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
+  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
 }
 
 void split_fields(std::string_view line, char delimiter, std::vector<std::string_view>& fields) {

@@ -6,7 +6,8 @@
 
 namespace tcm_icp {
 
-std::string_view trimmed(std::string_view text);  ///< without blanks and tabs at its ends
+/// Without the characters `blanks` at its ends.
+std::string_view trimmed(std::string_view text, std::string_view blanks = " \t");
 
 /// Splits a line, without copying. ' ' splits at runs of blanks and tabs; any other delimiter splits at each of it and
 /// trims, so that an empty field is seen as one; a single delimiter at the end is no field.

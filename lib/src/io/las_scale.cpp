@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "largest_coordinate.hpp"
+
 namespace tcm_icp {
 namespace {
 
@@ -25,8 +27,7 @@ LasScale choose_las_scale(const Eigen::AlignedBox3d& box) {
   if (box.isEmpty()) return scale;
   constexpr double kRoom = 4.2e9;  // of 2^32 numbers: offsets are rounded, and so are coordinates
   const double extent = box.sizes().maxCoeff();
-  const double farthest = std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
-  const double told_apart = std::max(farthest * std::numeric_limits<double>::epsilon(), 1e-15);
+  const double told_apart = std::max(largest_coordinate(box) * std::numeric_limits<double>::epsilon(), 1e-15);
   scale.is_by_extent = extent / kRoom > told_apart;
   scale.step = round_up(std::max(extent / kRoom, told_apart));
   // Multiples of some 2 % of the largest extent that has room: few digits, and all of the box within 2^31 of them.

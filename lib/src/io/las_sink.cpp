@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -13,6 +12,7 @@
 #include "las_header.hpp"
 #include "las_scale.hpp"
 #include "little_endian.hpp"
+#include "number_text.hpp"
 #include "scalar.hpp"
 #include "tcm_icp/core/error.hpp"
 #include "well_known_text.hpp"
@@ -63,11 +63,6 @@ std::uint8_t extra_type(ScalarType type) {
   return kTypes[static_cast<std::size_t>(type)];
 }
 
-std::string digits(double value) {
-  std::array<char, 32> text;
-  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
-}
-
 class LasSink : public CloudSink {
  public:
   LasSink(std::filesystem::path path, const RecordLayout& layout, const RegisteredCloudOptions& options)
@@ -80,7 +75,7 @@ class LasSink : public CloudSink {
     if (scale_.step > options.largest_step && scale_.is_by_extent) {
       throw OutputError(this->path(),
                         "cannot hold coordinates that reach this far: its 32-bit integers would round them to " +
-                            digits(scale_.step) + ", more than a millionth of a scan",
+                            shortest_digits(scale_.step) + ", more than a millionth of a scan",
                         kRemedy);
     }
     lay_out();
@@ -166,7 +161,7 @@ class LasSink : public CloudSink {
   }
 
   [[noreturn]] void refuse(std::string_view name, double value) const {
-    throw OutputError(path(), "has no room for the " + std::string(name) + " " + digits(value) + " of a point",
+    throw OutputError(path(), "has no room for the " + std::string(name) + " " + shortest_digits(value) + " of a point",
                       kRemedy);
   }
 

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "cloud_sink.hpp"
+#include "largest_coordinate.hpp"
 #include "little_endian.hpp"
 #include "scalar.hpp"
 
@@ -89,13 +90,11 @@ class PcdSink : public CloudSink {
     return to + scalar_size(column.type);
   }
 
-  /// One number of three bytes, blue first; 65535 becomes 255.
+  /// One number of three bytes, blue first.
   std::byte* append_colour(const std::byte* record, std::byte* to) const {
     for (std::size_t i = 0; i < 3; ++i) {
       const RecordColumn& column = layout_.columns[layout_.first_colour() + i];
-      const double value = load_scalar(record + column.offset, column.type);
-      const bool is_byte = column.type == ScalarType::kUInt8;
-      to[2 - i] = static_cast<std::byte>(is_byte ? value : value / 257 + 0.5);
+      to[2 - i] = static_cast<std::byte>(colour_byte(record + column.offset, column.type));
     }
     to[3] = std::byte{0};
     return to + 4;
@@ -122,8 +121,7 @@ class PcdSink : public CloudSink {
 
 bool pcd_needs_doubles(const Eigen::AlignedBox3d& box, double largest_step) {
   if (box.isEmpty()) return false;
-  const double farthest = std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
-  return farthest * std::numeric_limits<float>::epsilon() > largest_step;
+  return largest_coordinate(box) * std::numeric_limits<float>::epsilon() > largest_step;
 }
 
 std::unique_ptr<CloudSink> open_pcd(std::filesystem::path path, const RecordLayout& layout,

@@ -1,27 +1,19 @@
 #include "tcm_icp/io/pose_export.hpp"
 
-#include <array>
-#include <charconv>
-#include <fstream>
-#include <string_view>
-
+#include "core/unit_quaternion.hpp"
+#include "number_text.hpp"
+#include "scan_status.hpp"
 #include "tcm_icp/core/error.hpp"
+#include "text_file.hpp"
 
 namespace tcm_icp {
 namespace {
-
-std::string digits17(double value) {
-  std::array<char, 32> text;
-  const auto result = std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general, 17);
-  return {text.data(), result.ptr};
-}
 
 bool is_registered(const ScanPose& pose) { return pose.status != ScanStatus::kUnregistered; }
 
 /// Position, then quaternion x y z w with w >= 0.
 std::string position_and_turn(const Eigen::Isometry3d& T, char separator) {
-  Eigen::Quaterniond q = Eigen::Quaterniond(T.linear()).normalized();
-  if (q.w() < 0) q.coeffs() = -q.coeffs();
+  const Eigen::Quaterniond q = unit_quaternion(T);
   std::string text;
   for (int axis = 0; axis < 3; ++axis) text += digits17(T.translation()[axis]) + separator;
   return text + digits17(q.x()) + separator + digits17(q.y()) + separator + digits17(q.z()) + separator +
@@ -35,16 +27,6 @@ std::string csv_field(const std::string& text) {
   return quoted + '"';
 }
 
-// In the order of ScanStatus.
-constexpr std::array<std::string_view, 3> kStatusNames = {"reference", "registered", "unregistered"};
-
-void write_text(const std::filesystem::path& path, const std::string& text) {
-  std::ofstream stream(path, std::ios::binary | std::ios::trunc);
-  stream << text;
-  stream.close();
-  if (!stream) throw OutputError(path, "cannot be written", "check the folder's permissions and the disk's free space");
-}
-
 }  // namespace
 
 std::string poses_as_csv(const std::vector<ScanPose>& poses) {
@@ -52,8 +34,7 @@ std::string poses_as_csv(const std::vector<ScanPose>& poses) {
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const ScanPose& pose = poses[i];
     text += std::to_string(i) + ',' + csv_field(pose.file) + ',';
-    text += kStatusNames[static_cast<std::size_t>(pose.status)];
-    text += ',' + std::to_string(pose.component) + ',';
+    text += std::string(to_string(pose.status)) + ',' + std::to_string(pose.component) + ',';
     text += (is_registered(pose) ? position_and_turn(pose.T_reference_scan, ',') : std::string(6, ',')) + '\n';
   }
   return text;
@@ -102,10 +83,10 @@ std::string poses_as_g2o(const std::vector<ScanPose>& poses, const std::vector<P
 
 void write_pose_exports(const std::filesystem::path& folder, const std::vector<ScanPose>& poses,
                         const std::vector<PoseGraphEdge>& edges) {
-  write_text(folder / "poses.csv", poses_as_csv(poses));
-  write_text(folder / "tum.txt", poses_as_tum(poses));
-  write_text(folder / "kitti.txt", poses_as_kitti(poses));
-  write_text(folder / "graph.g2o", poses_as_g2o(poses, edges));
+  write_text_file(folder / "poses.csv", poses_as_csv(poses));
+  write_text_file(folder / "tum.txt", poses_as_tum(poses));
+  write_text_file(folder / "kitti.txt", poses_as_kitti(poses));
+  write_text_file(folder / "graph.g2o", poses_as_g2o(poses, edges));
 }
 
 }  // namespace tcm_icp

@@ -1,28 +1,19 @@
 #include "tcm_icp/io/pose_io.hpp"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <string_view>
 
+#include "number_text.hpp"
 #include "pose_json.hpp"
+#include "scan_status.hpp"
 #include "tcm_icp/core/error.hpp"
 #include "tcm_icp/core/rigid_transform.hpp"
+#include "text_file.hpp"
 
 namespace tcm_icp {
 namespace {
-
-// In the order of ScanStatus.
-constexpr std::array<std::string_view, 3> kStatusNames = {"reference", "registered", "unregistered"};
-
-std::string digits17(double value) {
-  std::array<char, 32> text;
-  const auto result = std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general, 17);
-  return {text.data(), result.ptr};
-}
 
 /// The numbers of one row of a matrix.
 std::string row_text(const Eigen::Isometry3d& T, int row, std::string_view separator) {
@@ -51,8 +42,7 @@ std::string json_matrix(const Eigen::Isometry3d& T, const std::string& file) {
 
 std::string json_scan(const ScanPose& scan) {
   const bool placed = scan.status != ScanStatus::kUnregistered;
-  std::string text = "  {\"file\": " + json_string(scan.file) +
-                     ", \"status\": " + json_string(kStatusNames[static_cast<std::size_t>(scan.status)]) +
+  std::string text = "  {\"file\": " + json_string(scan.file) + ", \"status\": " + json_string(std::string(to_string(scan.status))) +
                      ",\n   \"pose\": " + (placed ? json_matrix(scan.T_reference_scan, scan.file) : "null") + ",\n";
   if (scan.pose_in_component) {
     text += "   \"pose_in_component\": " + json_matrix(*scan.pose_in_component, scan.file) + ",\n";
@@ -65,13 +55,6 @@ std::string json_scan(const ScanPose& scan) {
 /// Nothing where there is no such text.
 std::string optional_field(std::string_view name, std::string_view text) {
   return text.empty() ? "" : "\n " + json_string(name) + ": " + json_string(text) + ",";
-}
-
-void write_text(const std::filesystem::path& path, const std::string& text) {
-  std::ofstream stream(path, std::ios::binary | std::ios::trunc);
-  stream << text;
-  stream.close();
-  if (!stream) throw OutputError(path, "cannot be written", "check the folder's permissions and the disk's free space");
 }
 
 /// A field of an entry, of the kind of T; InputError where it is missing or of another kind.
@@ -87,13 +70,13 @@ T field_of(const nlohmann::json& entry, const char* key, const std::filesystem::
 ScanPose read_scan(const nlohmann::json& entry, const std::filesystem::path& path, const std::string& place) {
   ScanPose scan;
   scan.file = field_of<std::string>(entry, "file", path, place);
-  const auto status = field_of<std::string>(entry, "status", path, place);
-  const auto at = std::find(kStatusNames.begin(), kStatusNames.end(), status);
-  if (at == kStatusNames.end()) {
-    throw InputError(path, place, "has the unknown status '" + status + "'",
+  const auto status_name = field_of<std::string>(entry, "status", path, place);
+  const auto status = status_from_name(status_name);
+  if (!status) {
+    throw InputError(path, place, "has the unknown status '" + status_name + "'",
                      "reference, registered and unregistered are known");
   }
-  scan.status = static_cast<ScanStatus>(at - kStatusNames.begin());
+  scan.status = *status;
   const auto pose = pose_of(entry, "pose", path, place);
   if (pose.has_value() != (scan.status != ScanStatus::kUnregistered)) {
     throw InputError(path, place, pose ? "is unregistered, but has a pose" : "has no pose, but is not unregistered",
@@ -114,7 +97,7 @@ void write_pose_file(const std::filesystem::path& path, const PoseFile& poses) {
   std::string text = "{\"schema\": 1, \"reference\": " + json_string(poses.reference) + "," +
                      optional_field("frame", poses.frame) + optional_field("crs", poses.crs) + "\n \"scans\": [";
   for (std::size_t i = 0; i < poses.scans.size(); ++i) text += (i == 0 ? "\n" : ",\n") + json_scan(poses.scans[i]);
-  write_text(path, text + "\n ]}\n");
+  write_text_file(path, text + "\n ]}\n");
 }
 
 PoseFile read_pose_file(const std::filesystem::path& path) {
@@ -184,7 +167,7 @@ std::vector<std::optional<PoseSigmas>> read_initial_sigmas(const std::filesystem
 void write_transform(const std::filesystem::path& path, const Eigen::Isometry3d& T) {
   std::string text;
   for (int row = 0; row < 4; ++row) text += row_text(T, row, " ") + "\n";
-  write_text(path, text);
+  write_text_file(path, text);
 }
 
 }  // namespace tcm_icp

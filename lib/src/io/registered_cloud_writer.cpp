@@ -7,6 +7,7 @@
 #include "cloud_sink.hpp"
 #include "e57_writer.hpp"
 #include "merged_record.hpp"
+#include "posed_scans_sink.hpp"
 #include "tcm_icp/core/error.hpp"
 #include "well_known_text.hpp"
 
@@ -59,6 +60,11 @@ std::unique_ptr<CloudSink> open_sink(std::filesystem::path path, const RecordLay
   }
 }
 
+std::unique_ptr<PosedScansSink> open_posed_sink(std::filesystem::path path, CloudFormat format) {
+  if (format == CloudFormat::kPtx) return open_ptx(std::move(path));
+  return std::make_unique<E57Writer>(std::move(path));
+}
+
 }  // namespace
 
 /// All scans as one list of points.
@@ -87,12 +93,12 @@ struct RegisteredCloudWriter::ScansWithPoses : RegisteredCloudWriter::Impl {
       : Impl(std::move(attributes)),
         options(std::move(cloud_options)),
         times_begun(scan_attributes.size(), 0),
-        writer(std::move(path)) {}
+        sink(open_posed_sink(std::move(path), options.format)) {}
 
   void write(std::size_t scan, const PointBlock& block, const Eigen::Isometry3d& T_reference_scan) override {
     if (!record || scan != present) begin(scan, T_reference_scan);
     fill(*record, scan, block, Eigen::Isometry3d::Identity());
-    writer.write(bytes.data(), block.size());
+    sink->write(bytes.data(), block.size());
   }
 
   void begin(std::size_t scan, const Eigen::Isometry3d& T_reference_scan) {
@@ -103,11 +109,11 @@ struct RegisteredCloudWriter::ScansWithPoses : RegisteredCloudWriter::Impl {
     record.emplace(attributes, options.colour, true);
     std::string name = scan < options.scan_names.size() ? options.scan_names[scan] : "scan " + std::to_string(scan + 1);
     if (++times_begun[scan] > 1) name += " (" + std::to_string(times_begun[scan]) + ")";
-    writer.begin_scan(name, T_reference_scan, record->layout());
+    sink->begin_scan(name, T_reference_scan, record->layout());
   }
 
   void finish() override {
-    writer.finish(
+    sink->finish(
         "registered by tcm-icp; pose in the frame of " + (options.frame.empty() ? options.reference : options.frame),
         well_known_text(options.crs).value_or(""));
   }
@@ -118,20 +124,22 @@ struct RegisteredCloudWriter::ScansWithPoses : RegisteredCloudWriter::Impl {
   std::optional<MergedRecord> record;
   std::size_t present = 0;  ///< scan whose record that is
   std::uint64_t replaced_before = 0;
-  E57Writer writer;
+  std::unique_ptr<PosedScansSink> sink;
 };
 
 std::string_view extension_of(CloudFormat format) {
-  constexpr std::array<std::string_view, 5> kExtensions{".ply", ".las", ".pcd", ".xyz", ".e57"};
+  constexpr std::array<std::string_view, 6> kExtensions{".ply", ".las", ".pcd", ".xyz", ".e57", ".ptx"};
   return kExtensions[static_cast<std::size_t>(format)];
 }
+
+bool keeps_scans_apart(CloudFormat format) { return format == CloudFormat::kE57 || format == CloudFormat::kPtx; }
 
 bool needs_box(CloudFormat format) { return format == CloudFormat::kLas || format == CloudFormat::kPcd; }
 
 RegisteredCloudWriter::RegisteredCloudWriter(std::filesystem::path path,
                                              std::vector<std::vector<Attribute>> scan_attributes,
                                              const RegisteredCloudOptions& options) {
-  if (options.format == CloudFormat::kE57) {
+  if (keeps_scans_apart(options.format)) {
     impl_ = std::make_unique<ScansWithPoses>(std::move(path), std::move(scan_attributes), options);
   } else {
     impl_ = std::make_unique<OneCloud>(std::move(path), std::move(scan_attributes), options);

@@ -34,7 +34,7 @@ void sort_naturally(std::vector<fs::path>& paths) {
 bool is_result(const fs::path& folder) {
   if (!fs::exists(folder / "poses.json")) return false;
   for (const char* const name :
-       {"registered.ply", "registered.las", "registered.pcd", "registered.xyz", "registered.e57"}) {
+       {"registered.ply", "registered.las", "registered.pcd", "registered.xyz", "registered.e57", "registered.ptx"}) {
     if (fs::exists(folder / name)) return true;
   }
   return false;

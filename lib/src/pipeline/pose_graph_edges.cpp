@@ -2,18 +2,13 @@
 
 #include <cmath>
 
+#include "core/cross_matrix.hpp"
 #include "tcm_icp/core/rigid_transform.hpp"
 
 namespace tcm_icp {
 namespace {
 
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
-
-Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v) {
-  Eigen::Matrix3d m;
-  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-  return m;
-}
 
 }  // namespace
 

@@ -44,6 +44,8 @@ class CloudOutput {
     if (result.survey.has_frame) {
       cloud_.frame = result.survey.defined_by;
       cloud_.crs = result.survey.crs;
+      const bool needs_text = wants_text() && !cloud_.crs.empty() && !las_names_crs(cloud_.crs);
+      if (needs_text && las_names_crs(options.crs_text)) cloud_.crs = options.crs_text;
     } else if (options.format == CloudFormat::kE57) {
       name_coordinate_system();
     }
@@ -58,11 +60,11 @@ class CloudOutput {
     merged.finish();
     warn_of_replaced(merged.num_replaced(), name);
     warn_of_replaced(num_replaced_in_scans_, "scans/");
-    const bool wants_text = options_.format == CloudFormat::kLas || options_.format == CloudFormat::kE57;
-    if (wants_text && !cloud_.crs.empty() && !las_names_crs(cloud_.crs)) {
+    if (wants_text() && !cloud_.crs.empty() && !las_names_crs(cloud_.crs)) {
       context_.warn(name + " does not name the coordinate system " + cloud_.crs + ": the format wants its " +
-                    "well-known text, which is known here of UTM zones alone; give a file with it to --crs");
+                    "well-known text, which is not known here; give a file with it to --crs");
     }
+    if (options_.format == CloudFormat::kPtx) warn_of_left_out(name);
     if (options_.format == CloudFormat::kPcd && pcd_needs_doubles(cloud_.box, cloud_.largest_step)) {
       context_.warn(name + " has its coordinates as doubles, which PCL does not read: floats would round them to " +
                     "more than a millionth of a scan; choose a --reference near the origin, or --format las");
@@ -71,6 +73,8 @@ class CloudOutput {
 
  private:
   using Use = std::function<void(const PointBlock&)>;
+
+  bool wants_text() const { return options_.format == CloudFormat::kLas || options_.format == CloudFormat::kE57; }
 
   bool is_registered(std::size_t i) const { return result_.poses[i].status != ScanStatus::kUnregistered; }
 
@@ -211,6 +215,21 @@ class CloudOutput {
   void warn_of_replaced(std::uint64_t number, const std::string& where) const {
     if (number == 0) return;
     context_.warn(std::to_string(number) + " attribute values were NaN or infinite and are 0 in " + where);
+  }
+
+  void warn_of_left_out(const std::string& where) const {
+    const std::set<std::string> kept{"intensity", "red", "green", "blue"};
+    std::set<std::string> left_out;
+    for (std::size_t i = 0; i < attributes_.size(); ++i) {
+      if (!is_registered(i)) continue;
+      for (const auto& attribute : attributes_[i]) {
+        if (!kept.contains(attribute.name)) left_out.insert(attribute.name);
+      }
+    }
+    if (left_out.empty()) return;
+    std::string names;
+    for (const auto& name : left_out) names += (names.empty() ? "" : ", ") + name;
+    context_.warn(where + " is without " + names + ": PTX has intensity and colour alone; --format e57 keeps all");
   }
 
   static constexpr double kLargestStep = 1e-6;  // of a scan's extent: coordinates may be rounded by that

@@ -1,12 +1,10 @@
 #include "tcm_icp/pipeline/result_writer.hpp"
 
-#include <fstream>
-
+#include "io/text_file.hpp"
 #include "pipeline/pose_graph_edges.hpp"
 #include "pipeline/registered_clouds.hpp"
 #include "pipeline/stage_clock.hpp"
 #include "report/report_html.hpp"
-#include "tcm_icp/core/error.hpp"
 #include "tcm_icp/io/output_folder.hpp"
 #include "tcm_icp/io/pose_export.hpp"
 #include "tcm_icp/io/pose_io.hpp"
@@ -19,13 +17,6 @@ namespace fs = std::filesystem;
 
 // The file by which --force knows an earlier result.
 constexpr const char* kMarker = "poses.json";
-
-void write_text(const fs::path& path, const std::string& text) {
-  std::ofstream out(path, std::ios::binary);
-  out << text;
-  out.close();
-  if (!out) throw OutputError(path, "cannot be written", "check that the disk is not full");
-}
 
 void add_options(const OutputOptions& clouds, Json& to) {
   to["format"] = std::string(extension_of(clouds.format)).substr(1);
@@ -62,8 +53,8 @@ void write_result(const fs::path& folder, bool overwrite, std::span<const ScanIn
   clock.end();
   Json report = report_object(result, options, context, description);
   add_options(clouds, report["options"]);
-  write_text(output.work() / "report.json", json_text(report));
-  write_text(output.work() / "report.html", report_html(report));
+  write_text_file(output.work() / "report.json", json_text(report));
+  write_text_file(output.work() / "report.html", report_html(report));
   output.commit();
 }
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <optional>
 
+#include "core/figure_text.hpp"
 #include "tcm_icp/core/error.hpp"
 
 namespace tcm_icp {
@@ -98,13 +98,11 @@ std::optional<UnitPair> likely_units(const std::vector<Comparison>& figures) {
 }
 
 std::string doubt(const std::string& file, const UnitPair& units, bool has_noise) {
-  char ratio[32];
-  std::snprintf(ratio, sizeof ratio, "%.4g", units.ratio);
   const std::string mine = units.mine, theirs = units.theirs;
   const std::string others = theirs == "m" ? "" : "--unit " + theirs + " ";
   return file + ": " + (has_noise ? "extent, point spacing and noise" : "extent and point spacing") + " are about " +
-         ratio + " times those of the other scans, as if it were in " + mine + " and they in " + theirs +
-         "; if that is so, say " + others + "--unit " + file + "=" + mine;
+         figure(units.ratio, 4) + " times those of the other scans, as if it were in " + mine + " and they in " +
+         theirs + "; if that is so, say " + others + "--unit " + file + "=" + mine;
 }
 
 }  // namespace

@@ -79,13 +79,14 @@ void check_survey(std::span<const ScanInput> inputs, const InitialPoses& initial
         "method does not say how exact its poses are");
   }
   const std::vector<std::string> names = input_names(inputs);
-  const auto has_initial_pose = [&](const std::string& name) {
+  const auto index_of = [&](const std::string& name) {
     const auto at = std::find(names.begin(), names.end(), name);
     if (at == names.end()) throw InvalidOptions("the survey frame names '" + name + "', which is none of the scans");
-    return initial_poses[static_cast<std::size_t>(at - names.begin())].has_value();
+    return static_cast<std::size_t>(at - names.begin());
   };
+  const auto has_initial_pose = [&](const std::string& name) { return initial_poses[index_of(name)].has_value(); };
   for (const auto& point : survey.points) {
-    if (!point.scan.empty()) has_initial_pose(point.scan);
+    if (!point.scan.empty()) index_of(point.scan);
   }
   for (const auto& fixed : survey.fixed) {
     if (has_initial_pose(fixed)) continue;
@@ -95,6 +96,11 @@ void check_survey(std::span<const ScanInput> inputs, const InitialPoses& initial
   for (const auto& prior : survey.priors) {
     const bool is_valid = has_initial_pose(prior.scan) && prior.sigma_position_m > 0 && prior.sigma_rotation_rad > 0;
     if (!is_valid) throw InvalidOptions("the initial pose of " + prior.scan + " has no standard deviation, or is none");
+  }
+  for (const auto& level : survey.levels) {
+    index_of(level.scan);
+    if (level.sigma_rad >= 0) continue;
+    throw InvalidOptions("the standard deviation of the level of " + level.scan + " is not at least 0");
   }
 }
 

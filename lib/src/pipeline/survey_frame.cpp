@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <optional>
 #include <string>
 
 #include "adjustment/uncertainty.hpp"
+#include "core/figure_text.hpp"
 #include "pipeline/scan_set.hpp"
 #include "survey/survey_adjustment.hpp"
 
@@ -75,6 +75,14 @@ class SurveyFrame {
     const auto at = std::find_if(priors.begin(), priors.end(),
                                  [&](const PosePrior& prior) { return prior.scan == in_.files[scan]; });
     return at == priors.end() ? nullptr : &*at;
+  }
+
+  double level_of(std::size_t scan) const {
+    double sigma_rad = in_.survey.sigma_level_rad;
+    for (const ScanLevel& level : in_.survey.levels) {
+      if (level.scan == in_.files[scan]) sigma_rad = level.sigma_rad;
+    }
+    return sigma_rad;
   }
 
   // The frame is that of these scans, whatever their observations determine.
@@ -155,7 +163,7 @@ class SurveyFrame {
         out.poses.push_back({in_.files[i], k, Eigen::Translation3d(-record_.origin) * *T_init_[i],
                              prior->sigma_rotation_rad, prior->sigma_position_m});
       }
-      if (in_.survey.sigma_level_rad > 0) out.levels.push_back({k, in_.survey.sigma_level_rad});
+      if (const double sigma_rad = level_of(i); sigma_rad > 0) out.levels.push_back({k, sigma_rad});
     }
     return out;
   }
@@ -252,18 +260,13 @@ class SurveyFrame {
                                : p.point.scan.empty() ? "control point " + p.point.name
                                                       : "control point " + p.point.name + " in " + p.point.scan;
       if (p.status == PointStatus::kBlunder) {
-        in_.context.warn(name + " contradicts the others and was left out: it is off by " + length(p.residual_m));
+        in_.context.warn(name + " contradicts the others and was left out: it is off by " +
+                         figure(p.residual_m.norm(), 4) + " m");
       } else if (p.status == PointStatus::kNotRegistered && record_.has_frame) {
         in_.context.warn(name + " was not used: its scan has no place in the survey frame");
       }
     }
     for (const auto& remark : record_.remarks) in_.context.warn(remark);
-  }
-
-  static std::string length(const Eigen::Vector3d& v) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.4g m", v.norm());
-    return text;
   }
 
   const PipelineInput& in_;
@@ -277,20 +280,6 @@ class SurveyFrame {
 };
 
 }  // namespace
-
-const char* to_string(PointStatus status) {
-  switch (status) {
-    case PointStatus::kUsed:
-      return "used";
-    case PointStatus::kBlunder:
-      return "blunder";
-    case PointStatus::kCheck:
-      return "check";
-    case PointStatus::kNotRegistered:
-      return "not registered";
-  }
-  return "unknown";
-}
 
 SurveyPlacement fit_to_survey(const PipelineInput& input, const std::vector<PreparedScan>& scans,
                               const Resolutions& resolutions, const std::vector<SettledComponent>& settled,

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "io/scan_status.hpp"
 #include "report_parts.hpp"
 
 namespace tcm_icp {
@@ -127,18 +128,6 @@ Json decision_json(const PipelineResult& result, std::size_t scan) {
   return j;
 }
 
-const char* name_of(ScanStatus status) {
-  switch (status) {
-    case ScanStatus::kReference:
-      return "reference";
-    case ScanStatus::kRegistered:
-      return "registered";
-    case ScanStatus::kUnregistered:
-      return "unregistered";
-  }
-  return "unknown";
-}
-
 // Where the scan's middle lies in the frame of its component; null where no pose tells.
 Json middle_json(const ScanPose& pose, const ScanSummary& scan) {
   const Eigen::Vector3d raw = scan.origin + scan.middle;
@@ -165,7 +154,7 @@ Json report_object(const PipelineResult& result, const PipelineOptions& options,
   const Eigen::Vector3d origin = result.local_origin();
   for (const auto& s : result.scans) report["scans"].push_back(to_json(s));
   for (std::size_t i = 0; i < result.poses.size(); ++i) {
-    report["scans"][i]["status"] = name_of(result.poses[i].status);
+    report["scans"][i]["status"] = to_string(result.poses[i].status);
     report["scans"][i]["verdict"] = result.poses[i].verdict;
     report["scans"][i]["reason"] = result.poses[i].reason;
     report["scans"][i]["component"] = result.poses[i].component;

@@ -6,17 +6,13 @@
 #include <fstream>
 #include <utility>
 
+#include "io/fields.hpp"
 #include "tcm_icp/core/error.hpp"
 
 namespace tcm_icp {
 namespace {
 
-std::string trimmed(const std::string& text) {
-  constexpr const char* kBlanks = " \t\r";
-  const std::size_t begin = text.find_first_not_of(kBlanks);
-  if (begin == std::string::npos) return {};
-  return text.substr(begin, text.find_last_not_of(kBlanks) - begin + 1);
-}
+constexpr std::string_view kBlanks = " \t\r";
 
 std::string place(std::size_t line) { return "line " + std::to_string(line); }
 
@@ -30,7 +26,7 @@ CsvTable::CsvTable(std::filesystem::path path) : path_(std::move(path)) {
   std::string line;
   for (std::size_t number = 1; std::getline(in, line); ++number) {
     if (number == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);
-    const std::string text = trimmed(line);
+    const std::string text(trimmed(line, kBlanks));
     if (text.empty() || text.front() == '#') continue;
     if (names_.empty()) {
       separator_ = text.find(';') != std::string::npos ? ';' : ',';
@@ -70,7 +66,7 @@ std::vector<std::string> CsvTable::split(const std::string& line, std::size_t nu
     }
   }
   if (quoted) throw InputError(path_, place(number), "has a quote that does not end", "mend it there");
-  for (auto& cell : cells) cell = trimmed(cell);
+  for (auto& cell : cells) cell = std::string(trimmed(cell, kBlanks));
   return cells;
 }
 

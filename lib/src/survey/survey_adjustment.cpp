@@ -3,10 +3,11 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <set>
 #include <utility>
 
+#include "core/cross_matrix.hpp"
+#include "core/figure_text.hpp"
 #include "survey/survey_equations.hpp"
 #include "survey/survey_start.hpp"
 
@@ -51,11 +52,11 @@ Eigen::MatrixXd determined_directions(const Matrix6& normal, double radius_m) {
   return Z;
 }
 
-Fit fit(const ScanNetwork& network, const SurveyObservations& observations, const std::vector<bool>& used) {
-  const TwistFrame frame = frame_of_network(network);
+Fit fit(const ScanNetwork& network, const TwistFrame& frame, const SurveyObservations& observations,
+        const std::vector<bool>& used) {
   Eigen::Isometry3d T = start_of_survey(network, observations, used);
   for (int step = 0;; ++step) {
-    SurveyEquations equations(network, observations, used, T);
+    SurveyEquations equations(network, frame, observations, used, T);
     const Eigen::MatrixXd SA = equations.S.solve(equations.A);
     const Matrix6 normal = equations.A.transpose() * SA;
     const Eigen::MatrixXd Z = determined_directions((normal + normal.transpose()) / 2, frame.radius_m);
@@ -77,6 +78,33 @@ Fit fit(const ScanNetwork& network, const SurveyObservations& observations, cons
   }
 }
 
+/// What the others say of an error that N rows may share, in the directions in which they check it.
+template <int N>
+struct Contradiction {
+  Eigen::Matrix<double, N, 1> error = Eigen::Matrix<double, N, 1>::Zero();
+  double test = 0;  ///< chi squared
+  int directions = 0;
+};
+
+/// @param weight, most  of the error: by what the others check of it, and if they were exact
+/// @param pull          on it, by the residuals
+template <int N>
+Contradiction<N> contradiction(const Eigen::Matrix<double, N, N>& weight, const Eigen::Matrix<double, N, N>& most,
+                               const Eigen::Matrix<double, N, 1>& pull) {
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix<double, N, N>> axes((weight + weight.transpose()) / 2,
+                                                                                   (most + most.transpose()) / 2);
+  Contradiction<N> out;
+  for (int k = 0; k < N; ++k) {
+    const double checked = axes.eigenvalues()[k];
+    if (!(checked > kLeastChecked)) continue;
+    const double pull_along = axes.eigenvectors().col(k).dot(pull);
+    out.test += pull_along * pull_along / checked;
+    out.error += pull_along / checked * axes.eigenvectors().col(k);
+    ++out.directions;
+  }
+  return out;
+}
+
 /// That one point, or all of one name, are off by the same three numbers.
 struct Suspicion {
   std::vector<std::size_t> points;
@@ -96,16 +124,8 @@ Suspicion suspect(const Fit& fit, std::vector<std::size_t> points) {
       most += fit.S_inverse.block<3, 3>(row, fit.equations.row_of[b]);
     }
   }
-  Suspicion out{std::move(points)};
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix3d> axes((weight + weight.transpose()) / 2,
-                                                                       (most + most.transpose()) / 2);
-  for (int k = 0; k < 3; ++k) {
-    const double checked = axes.eigenvalues()[k];
-    if (!(checked > kLeastChecked)) continue;
-    out.test += std::pow(axes.eigenvectors().col(k).dot(pull), 2) / checked;
-    ++out.directions;
-  }
-  return out;
+  const Contradiction<3> found = contradiction<3>(weight, most, pull);
+  return {std::move(points), found.test, found.directions};
 }
 
 /// The one that exceeds its limit most first.
@@ -130,12 +150,12 @@ std::vector<Suspicion> suspicions(const Fit& fit, const SurveyObservations& obse
 class SurveyAdjustment {
  public:
   SurveyAdjustment(const ScanNetwork& network, const SurveyObservations& observations)
-      : network_(network), in_(observations) {
+      : network_(network), whole_(frame_of_network(network)), in_(observations) {
     for (const auto& point : in_.points) used_.push_back(!point.is_check);
   }
 
   SurveySolution run() {
-    Fit best = fit(network_, in_, used_);
+    Fit best = fit(network_, whole_, in_, used_);
     while (leave_worst_out(best)) {
     }
     fill_in(best);
@@ -163,7 +183,7 @@ class SurveyAdjustment {
       // Who is wrong, the minority or the rest, cannot be told from half of the points on.
       const bool is_minority = 2 * (num_names(false) - num_names(true)) < num_names(false);
       if (is_minority && (num_names(true) > 0 || !in_.poses.empty())) {
-        Fit rest = fit(network_, in_, used_);
+        Fit rest = fit(network_, whole_, in_, used_);
         if (rest.num_rotations() >= best.num_rotations()) {
           remark_on_others(best, s, worst);
           best = std::move(rest);
@@ -189,16 +209,15 @@ class SurveyAdjustment {
 
   Eigen::Matrix<double, 6, 6> pose_covariance(const Fit& f, std::size_t scan) const {
     const auto at = static_cast<Eigen::Index>(6 * scan);
-    const TwistFrame whole = frame_of_network(network_);
     const Eigen::Matrix3d turn = f.T_survey_local.linear();
     const Eigen::MatrixXd BC = f.equations.BC.middleCols<6>(at);
     const Eigen::MatrixXd gain = (f.S_inverse * BC).transpose();  // 6 x rows
     const Matrix6 by_frame = gain * f.equations.A, Q = f.frame_covariance;
     const Matrix6 step = network_.covariance_m2.block<6, 6>(at, at) - gain * BC + by_frame * Q * by_frame.transpose();
     Matrix6 of_frame = Matrix6::Zero(), of_step = Matrix6::Zero();
-    const Eigen::Vector3d arm = turn * (network_.frames[scan].centre - whole.centre);
-    of_frame.topLeftCorner<3, 3>().diagonal().setConstant(1 / whole.radius_m);
-    of_frame.bottomLeftCorner<3, 3>() = -cross_matrix(arm) / whole.radius_m;
+    const Eigen::Vector3d arm = turn * (network_.frames[scan].centre - whole_.centre);
+    of_frame.topLeftCorner<3, 3>().diagonal().setConstant(1 / whole_.radius_m);
+    of_frame.bottomLeftCorner<3, 3>() = -cross_matrix(arm) / whole_.radius_m;
     of_frame.bottomRightCorner<3, 3>().setIdentity();
     of_step.topLeftCorner<3, 3>() = turn / network_.frames[scan].radius_m;
     of_step.bottomRightCorner<3, 3>() = turn;
@@ -239,15 +258,14 @@ class SurveyAdjustment {
   SurveyPoint predicted(const Fit& f, const PointObservation& p) const {
     const bool in_scan = p.scan != kNoScan;
     const Eigen::Isometry3d T = in_scan ? out_.T_survey_scan[p.scan] : f.T_survey_local;
-    const TwistFrame whole = frame_of_network(network_);
     Matrix6 pose = f.frame_covariance;
-    Eigen::Vector3d centre = f.T_survey_local * whole.centre;
+    Eigen::Vector3d centre = f.T_survey_local * whole_.centre;
     if (in_scan) {
       pose = out_.covariance[p.scan];
       centre = f.T_survey_local * network_.frames[p.scan].centre;
     } else {
       const Eigen::Matrix<double, 6, 1> units =
-          (Eigen::Matrix<double, 6, 1>() << Eigen::Vector3d::Constant(1 / whole.radius_m), Eigen::Vector3d::Ones())
+          (Eigen::Matrix<double, 6, 1>() << Eigen::Vector3d::Constant(1 / whole_.radius_m), Eigen::Vector3d::Ones())
               .finished();
       pose = units.asDiagonal() * pose * units.asDiagonal();
     }
@@ -265,25 +283,10 @@ class SurveyAdjustment {
 
   /// How far the others put a scan from its known pose, where that is more than chance; 0 otherwise.
   double contradiction_m(const Fit& f, std::size_t pose) const {
-    constexpr int kUnknowns = 6;
-    Eigen::Index row = 0;
-    for (const bool is_used : used_) row += is_used ? 3 : 0;
-    row += kUnknowns * static_cast<Eigen::Index>(pose);
-    const Matrix6 weight = f.P.block<6, 6>(row, row), most = f.S_inverse.block<6, 6>(row, row);
-    const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix6> axes((weight + weight.transpose()) / 2,
-                                                                 (most + most.transpose()) / 2);
-    Twist off = Twist::Zero();
-    double test = 0;
-    int directions = 0;
-    for (int k = 0; k < kUnknowns; ++k) {
-      const double checked = axes.eigenvalues()[k];
-      if (!(checked > kLeastChecked)) continue;
-      const double pull = axes.eigenvectors().col(k).dot(f.u.segment<6>(row));
-      test += pull * pull / checked;
-      off += pull / checked * axes.eigenvectors().col(k);
-      ++directions;
-    }
-    return directions > 0 && test > chi_squared_limit(directions) ? off.norm() : 0;
+    const Eigen::Index row = f.equations.row_of_pose[pose];
+    const Contradiction<6> found =
+        contradiction<6>(f.P.block<6, 6>(row, row), f.S_inverse.block<6, 6>(row, row), f.u.segment<6>(row));
+    return found.directions > 0 && found.test > chi_squared_limit(found.directions) ? found.error.norm() : 0;
   }
 
   void say(const std::string& remark) { out_.remarks.push_back(remark); }
@@ -299,22 +302,20 @@ class SurveyAdjustment {
     for (std::size_t k = 0; k < in_.poses.size(); ++k) {
       const double off_m = contradiction_m(f, k);
       if (!(off_m > 0)) continue;
-      char length[32];
-      std::snprintf(length, sizeof length, "%.3g", off_m);
       say("the initial pose of " + in_.poses[k].name + " contradicts links and other observations: these put it " +
-          std::string(length) + " m from there");
+          figure(off_m) + " m from there");
     }
     if (f.degrees_of_freedom() == 0) {
       say("nothing is redundant: no observation is checked by the others");
     } else if (f.chi_squared > chi_squared_limit(f.degrees_of_freedom())) {
-      char factor[32];
-      std::snprintf(factor, sizeof factor, "%.3g", f.chi_squared / f.degrees_of_freedom());
       say("what was used contradicts itself more than its standard deviations allow (variance factor " +
-          std::string(factor) + "): they are too small, or blunders are left that cannot be told");
+          figure(f.chi_squared / f.degrees_of_freedom()) +
+          "): they are too small, or blunders are left that cannot be told");
     }
   }
 
   const ScanNetwork& network_;
+  const TwistFrame whole_;  ///< of all scans, in the local frame
   const SurveyObservations& in_;
   std::vector<bool> used_;
   SurveySolution out_;

@@ -2,13 +2,9 @@
 
 #include <cmath>
 
-namespace tcm_icp {
+#include "core/cross_matrix.hpp"
 
-Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v) {
-  Eigen::Matrix3d m;
-  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-  return m;
-}
+namespace tcm_icp {
 
 TwistFrame frame_of_network(const ScanNetwork& network) {
   const auto n = static_cast<double>(network.frames.size());
@@ -22,10 +18,10 @@ TwistFrame frame_of_network(const ScanNetwork& network) {
   return out;
 }
 
-SurveyEquations::SurveyEquations(const ScanNetwork& network, const SurveyObservations& observations,
-                                 const std::vector<bool>& used, const Eigen::Isometry3d& T_survey_local)
-    : frame_(frame_of_network(network)) {
-  frame_.centre = T_survey_local * frame_.centre;
+SurveyEquations::SurveyEquations(const ScanNetwork& network, const TwistFrame& whole,
+                                 const SurveyObservations& observations, const std::vector<bool>& used,
+                                 const Eigen::Isometry3d& T_survey_local)
+    : frame_{T_survey_local * whole.centre, whole.radius_m} {
   Eigen::Index rows = 6 * static_cast<Eigen::Index>(observations.poses.size()) +
                       2 * static_cast<Eigen::Index>(observations.levels.size());
   row_of.assign(used.size(), -1);
@@ -46,7 +42,10 @@ SurveyEquations::SurveyEquations(const ScanNetwork& network, const SurveyObserva
       R.block<3, 3>(row_of[a], row_of[b]).diagonal() += points[a].sigma_given_m.cwiseProduct(points[b].sigma_given_m);
     }
   }
-  for (const auto& pose : observations.poses) add(network, pose, T_survey_local);
+  for (const auto& pose : observations.poses) {
+    row_of_pose.push_back(next_);
+    add(network, pose, T_survey_local);
+  }
   for (const auto& level : observations.levels) add(network, level, T_survey_local);
   factorize(network);
 }

@@ -11,26 +11,25 @@ namespace tcm_icp {
 
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
-/// The matrix of v x.
-Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v);
-
 /// About which point of the local frame the survey frame turns, and by which arc its rotation is measured.
 TwistFrame frame_of_network(const ScanNetwork& network);
 
 /// Unknowns are a step g of T_survey_local about frame_of_network(), and the steps x of all scans, whose covariance is
 /// the network's. Rows are those of the points that are used, three each in their order, then poses and levels.
 struct SurveyEquations {
-  SurveyEquations(const ScanNetwork& network, const SurveyObservations& observations, const std::vector<bool>& used,
-                  const Eigen::Isometry3d& T_survey_local);
+  /// @param whole  frame_of_network()
+  SurveyEquations(const ScanNetwork& network, const TwistFrame& whole, const SurveyObservations& observations,
+                  const std::vector<bool>& used, const Eigen::Isometry3d& T_survey_local);
 
   Eigen::Index num_rows() const { return y.size(); }
 
-  Eigen::VectorXd y;                 ///< [m], for levels [rad]: observed less computed
-  Eigen::MatrixXd A;                 ///< by the frame's step
-  Eigen::MatrixXd R;                 ///< covariance of e
-  Eigen::MatrixXd BC;                ///< B times the covariance of x
-  Eigen::LDLT<Eigen::MatrixXd> S;    ///< of R + B C B'
-  std::vector<Eigen::Index> row_of;  ///< first row of each point; -1 where it is not used
+  Eigen::VectorXd y;                      ///< [m], for levels [rad]: observed less computed
+  Eigen::MatrixXd A;                      ///< by the frame's step
+  Eigen::MatrixXd R;                      ///< covariance of e
+  Eigen::MatrixXd BC;                     ///< B times the covariance of x
+  Eigen::LDLT<Eigen::MatrixXd> S;         ///< of R + B C B'
+  std::vector<Eigen::Index> row_of;       ///< first row of each point; -1 where it is not used
+  std::vector<Eigen::Index> row_of_pose;  ///< first row of each pose
 
  private:
   /// A few rows that are about one scan.

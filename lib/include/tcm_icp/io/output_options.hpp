@@ -1,6 +1,8 @@
 #pragma once
 // What clouds a result has, and in which format.
 
+#include <string>
+
 namespace tcm_icp {
 
 /// File formats of written clouds.
@@ -10,6 +12,7 @@ enum class CloudFormat {
   kPcd,   ///< PCD, binary
   kText,  ///< a point a line
   kE57,   ///< E57: each scan in its own frame, with its pose
+  kPtx,   ///< PTX: the same, as text
 };
 
 /// Where the colours of written clouds come from.
@@ -24,6 +27,9 @@ struct OutputOptions {
   CloudColour colour = CloudColour::kKeep;  ///< of the same
   bool each = false;                        ///< every registered scan in a file of its own, too
   double voxel_m = 0;                       ///< [m] >= 0; the merged cloud has one point a cube of this edge; 0: all
+  /// LAS, E57: well-known text of the survey frame's coordinate system where its name is a code the library does not
+  /// know; empty: not known.
+  std::string crs_text = {};
 
   void validate() const;  ///< throws InvalidOptions naming field, value and bound
 };

@@ -32,6 +32,12 @@ struct PosePrior {
   double sigma_rotation_rad = 0;  ///< [rad] > 0, the same about all axes
 };
 
+/// A scan whose z axis is vertical by so much, as its compensator tells.
+struct ScanLevel {
+  std::string scan;
+  double sigma_rad = 0;  ///< about x and about y; 0: not known to be upright
+};
+
 /// Empty where the common frame is that of the reference scan.
 struct Survey {
   std::vector<ControlPoint> points;  ///< those of one name share their given coordinates
@@ -39,7 +45,8 @@ struct Survey {
   std::vector<PosePrior> priors;     ///< of scans whose initial poses have a weight
   /// [rad] standard deviation of each scan's z axis from the vertical, about x and about y; 0: not known to be upright
   double sigma_level_rad = 0;
-  std::string crs;  ///< of the survey frame, as text for files; empty: not known
+  std::vector<ScanLevel> levels;  ///< of scans for which that does not hold
+  std::string crs;                ///< of the survey frame, as text for files; empty: not known
 
   /// Whether nothing defines another frame.
   bool empty() const { return points.empty() && fixed.empty() && priors.empty(); }

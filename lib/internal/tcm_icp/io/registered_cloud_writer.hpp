@@ -16,8 +16,11 @@
 
 namespace tcm_icp {
 
-/// ".ply", ".las", ".pcd", ".xyz", ".e57".
+/// ".ply", ".las", ".pcd", ".xyz", ".e57", ".ptx".
 std::string_view extension_of(CloudFormat format);
+
+/// Whether a file of this format has each scan in its own frame with its pose.
+bool keeps_scans_apart(CloudFormat format);
 
 /// Whether a file of this format must be told before its first point how far its points reach.
 bool needs_box(CloudFormat format);
@@ -48,7 +51,8 @@ bool las_names_crs(const std::string& crs);
 bool pcd_needs_doubles(const Eigen::AlignedBox3d& box, double largest_step);
 
 /// Writes x y z in the reference scan's frame, the scan's index, a colour, then the union of the inputs' attributes.
-/// In E57 each scan is one of the file instead, in its own frame with its pose and its own attributes and colour.
+/// In E57 and PTX each scan is one of the file instead, in its own frame with its pose and its own attributes (in PTX
+/// intensity alone) and colour.
 /// Memory is that of a block. Until finish() the header says 0 points.
 class RegisteredCloudWriter {
  public:
@@ -64,8 +68,8 @@ class RegisteredCloudWriter {
   RegisteredCloudWriter& operator=(RegisteredCloudWriter&&) noexcept;
 
   /// Appends a block of raw points of one scan, moved by T_reference_scan; attributes nx ny nz are rotated. Attributes
-  /// the scan does not have are 0. A NaN or infinite attribute value becomes 0 and is counted. In E57 nothing is moved,
-  /// and a scan that comes again behind others is one more of the file ("name (2)").
+  /// the scan does not have are 0. A NaN or infinite attribute value becomes 0 and is counted. In E57 and
+  /// PTX nothing is moved, and a scan that comes again behind others is one more of the file ("name (2)").
   /// @throws InvalidInput  if the scan index, the attributes or the size of the block are not those announced, or a
   ///                       coordinate is not finite
   /// @throws OutputError   if the file cannot be written (disk full), or its format has no room for a value

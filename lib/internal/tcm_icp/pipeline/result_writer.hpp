@@ -1,5 +1,5 @@
 #pragma once
-// The files of a result: poses.json, poses/, transforms/, registered.ply (or .las, .pcd, .xyz, .e57), scans/,
+// The files of a result: poses.json, poses/, transforms/, registered.ply (or .las, .pcd, .xyz, .e57, .ptx), scans/,
 // report.json, report.html.
 
 #include <filesystem>

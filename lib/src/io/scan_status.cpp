@@ -1,0 +1,12 @@
+#include "scan_status.hpp"
+
+namespace tcm_icp {
+
+std::optional<ScanStatus> status_from_name(std::string_view name) {
+  for (const ScanStatus status : {ScanStatus::kReference, ScanStatus::kRegistered, ScanStatus::kUnregistered}) {
+    if (name == to_string(status)) return status;
+  }
+  return std::nullopt;
+}
+
+}  // namespace tcm_icp
