@@ -70,7 +70,7 @@ int cmd_register(const Arguments& arguments) {
 
   PipelineResult result = run_method(o, paths, guess, survey, context);
   write_result(o.out, o.force, paths, result, o.pipeline, o.clouds, context,
-               {kVersion, command_line("register", arguments), o.initial_poses, started});
+               {kVersion, command_line("register", arguments), o.initial_poses, started, o.report});
   console.finish();
   if (!o.quiet) {
     const bool verified = o.method == Method::kTcm && o.pipeline.profile == Profile::kRobust;

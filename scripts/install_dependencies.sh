@@ -6,7 +6,7 @@ set -euo pipefail
 usage() {
   cat <<'TEXT'
 Usage: install_dependencies.sh [--tests] [--checks] [--conventional] [--paper] [--benchmarks] [--comparison]
-  --tests       also what the tests need (GoogleTest)
+  --tests       also what the tests need (GoogleTest; Chromium, to look at a report)
   --checks      also what the format and script checks and scripts/fuzz.sh need (clang-format, shellcheck, clang)
   --conventional
                 also what register --method icp and features need (PCL: with its dependencies about 1 GB)
@@ -19,10 +19,10 @@ TEXT
 
 # GMP, MPFR and Boost's headers come with libcgal-dev.
 packages=(g++ cmake ninja-build ccache libcgal-dev libeigen3-dev libfftw3-dev libglpk-dev libboost-program-options-dev
-          libtbb-dev nlohmann-json3-dev libpugixml-dev zlib1g-dev)
+          libtbb-dev nlohmann-json3-dev libpugixml-dev zlib1g-dev libjs-three)
 while (($# > 0)); do
   case $1 in
-    --tests) packages+=(libgtest-dev) ;;
+    --tests) packages+=(libgtest-dev chromium python3-websocket) ;;
     --checks) packages+=(clang-format shellcheck clang libclang-rt-14-dev) ;;
     --conventional) packages+=(libpcl-dev) ;;
     --paper) packages+=(libpcl-dev python3-matplotlib python3-numpy) ;;

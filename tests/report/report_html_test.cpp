@@ -68,14 +68,14 @@ TEST(ReportHtml, IsWellFormedWhateverTheFilesAreCalled) {
   const std::string page = report_html(report_of(three_of_four()));
   EXPECT_EQ(testing::markup_error(page), "");
   for (const auto& name : kEscaped) EXPECT_TRUE(has(page, name)) << name;
-  EXPECT_FALSE(has(page, "<script"));
+  EXPECT_FALSE(has(page, "<script")) << "there are no points to look at";
   EXPECT_TRUE(has(page, "tcm-icp register &lt;&amp;&gt;"));
   EXPECT_TRUE(has(page, "2026-01-02 03:04:05+01:00"));
 }
 
 TEST(ReportHtml, LoadsNothing) {
   const std::string page = report_html(report_of(three_of_four()));
-  EXPECT_FALSE(std::regex_search(page, std::regex("src=|href=|url\\(|@import|onload", std::regex::icase)));
+  EXPECT_FALSE(std::regex_search(page, std::regex("(src|href)=\"(?!data:)|url\\(|@import|onload", std::regex::icase)));
 }
 
 TEST(ReportHtml, ShowsNoNaNAndNoInfinity) {

@@ -15,6 +15,12 @@ std::string percent(double share) {
   return text;
 }
 
+std::string metres(double length_m) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.2g m", length_m);
+  return text;
+}
+
 }  // namespace
 
 LinkRecord judge_link(std::size_t a, std::size_t b, const LinkMeasurements& m, const SetReference& set) {
@@ -28,8 +34,8 @@ LinkRecord judge_link(std::size_t a, std::size_t b, const LinkMeasurements& m, c
                 : out.probability < kLinkRejected ? "rejected"
                                                   : "doubtful";
   out.reason = percent(m.evidence.overlap) + " overlap, " + percent(m.evidence.inlier_share) +
-               " of that agrees within the noise; " + percent(m.evidence.left_after_slide[0]) +
-               " of the agreement is left when it slides along its weakest direction";
+               " of that agrees within the noise; moved by " + metres(m.evidence.slide_m) +
+               " in its weakest direction, " + percent(m.evidence.left_after_slide[0]) + " of the agreement would be left";
   if (m.free_space.tells()) {
     out.reason += "; " + percent(m.free_space.violation_share()) + " is seen through walls";
   }

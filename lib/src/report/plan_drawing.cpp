@@ -96,6 +96,7 @@ std::string plan_drawing(const PlanGroup& group, const Json& report) {
                plan.height) +
          "<title>Top view of group " + std::to_string(group.component) + "</title>\n" +
          print("<rect width=\"%.0f\" height=\"%.0f\" fill=\"#fafbfc\"/>\n", plan.width, plan.height) +
+         group.background +
          discs(group, report) + scale_bar(plan) + "</svg>\n";
 }
 

@@ -1,0 +1,97 @@
+// What would make the result firmer: in words, from the graph of links.
+
+#include <algorithm>
+
+#include "report/weak_spots.hpp"
+#include "report_html_parts.hpp"
+#include "report_html_text.hpp"
+
+namespace tcm_icp::html {
+namespace {
+
+std::string item(const std::string& text) { return "<li>" + text + "</li>\n"; }
+
+std::string scans_in_words(const Json& report, const std::vector<std::size_t>& scans) {
+  constexpr std::size_t kMost = 6;
+  std::string out;
+  for (std::size_t k = 0; k < std::min(kMost, scans.size()); ++k) {
+    out += (k > 0 ? ", " : "") + scan_label(report, report.at("scans").at(scans[k]).at("file"));
+  }
+  return out + (scans.size() > kMost ? " and " + std::to_string(scans.size() - kMost) + " more" : "");
+}
+
+std::vector<WeightedLink> held_by(const Json& report) {
+  std::vector<WeightedLink> links;
+  for (const auto& link : report.at("links")) {
+    const double overlap = link.at("verdict") == "rejected" ? 0 : link.at("evidence").at("overlap").get<double>();
+    links.push_back({scan_number(report, link.at("a")), scan_number(report, link.at("b")), overlap});
+  }
+  return links;
+}
+
+std::string advice(const Json& report, const WeakSpot& spot) {
+  const bool one = spot.scans.size() == 1;
+  std::string out = (one ? "Scan " : "Scans ") + scans_in_words(report, spot.scans) + (one ? " hangs" : " hang") + " on ";
+  const Json& strongest = report.at("links").at(spot.links.front());
+  const std::string pair = scan_label(report, strongest.at("a")) + " and " + scan_label(report, strongest.at("b"));
+  if (spot.links.size() == 1) {
+    out += "one link of " + percent(strongest.at("evidence").at("overlap")) + " overlap, between " + pair;
+  } else {
+    out += std::to_string(spot.links.size()) + " links, the strongest of " +
+           percent(strongest.at("evidence").at("overlap")) + " overlap between " + pair;
+  }
+  return out + ": one more set-up between these two would hold " + (one ? "it." : "them.");
+}
+
+std::string advice_for_unregistered(const Json& report, const Json& scan) {
+  const Json* likeliest = nullptr;
+  for (const auto& h : report.at("hypotheses")) {
+    if (h.at("a") != scan.at("file") && h.at("b") != scan.at("file")) continue;
+    if (likeliest == nullptr || h.at("log_odds") > likeliest->at("log_odds")) likeliest = &h;
+  }
+  const std::string label = scan_label(report, scan.at("file"));
+  if (likeliest == nullptr) {
+    return label + " shares nothing that was found with any other scan: scan again from between it and its neighbours, "
+                   "30\u202F% overlap or more.";
+  }
+  const Json& other = likeliest->at("a") == scan.at("file") ? likeliest->at("b") : likeliest->at("a");
+  return label + " is not registered. What comes closest is a link with " + scan_label(report, other) + " (" +
+         odds(likeliest->at("log_odds").get<double>()) + ", " + percent(likeliest->at("evidence").at("overlap")) +
+         " overlap): one more set-up between these two would settle it.";
+}
+
+}  // namespace
+
+std::string help_section(const Json& report) {
+  if (!verifies(report)) return "";
+  constexpr std::size_t kMostSpots = 5;
+  std::string items;
+  std::vector<std::size_t> registered;
+  for (std::size_t i = 0; i < report.at("scans").size(); ++i) {
+    const Json& scan = report.at("scans").at(i);
+    if (scan.at("status") == "unregistered") {
+      items += item(advice_for_unregistered(report, scan));
+    } else {
+      registered.push_back(i);
+    }
+  }
+  const std::vector<WeakSpot> spots = weak_spots(registered, held_by(report));
+  for (std::size_t k = 0; k < std::min(kMostSpots, spots.size()); ++k) {
+    if (!spots[k].links.empty()) items += item(advice(report, spots[k]));
+  }
+  const std::vector<std::size_t> order = links_worst_first(report);
+  if (!order.empty() && report.contains("acceptance")) {
+    for (const auto& scan : report.at("scans")) {
+      if (scan.at("status") == "unregistered" || scan.at("acceptance").at("passed") == true) continue;
+      items += item(scan_label(report, scan.at("file")) + " fails the limits (" +
+                    sentence(scan.at("acceptance").at("failures").at(0)) +
+                    "): look at its links in the view, and scan again from its set-up if they are as they seem.");
+    }
+  }
+  if (items.empty()) return "";
+  return section("What would help", "<ul>\n" + items + "</ul>\n" +
+                                        note("The weakest places of the net: scans, or groups of scans, that the fewest "
+                                             "and slightest links hold to the others."));
+}
+
+}  // namespace tcm_icp::html
