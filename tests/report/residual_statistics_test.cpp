@@ -20,6 +20,17 @@ TEST(ResidualStatistics, AreThoseOfTheAbsoluteValues) {
   EXPECT_NEAR(*s->share_accepted, 0.30, 1e-12);
 }
 
+TEST(ResidualStatistics, RmsLeavesOutWhatIsFarOffTheNoise) {
+  std::vector<float> distances(99, 0.002F);
+  distances.push_back(1.0F);
+  const auto s = residual_statistics(distances, 0, 0.1);
+  ASSERT_TRUE(s);
+  EXPECT_NEAR(s->rms_m, 0.002, 1e-6);
+  EXPECT_NEAR(s->rms_all_m, 0.1, 1e-4);
+  const auto exact = residual_statistics({0.0F, 0.0F, 0.0F, 1.0F}, 0, 0.1);
+  EXPECT_EQ(exact->rms_m, 0) << "scans without noise";
+}
+
 TEST(ResidualStatistics, HistogramHoldsEveryPointAndKeepsSigns) {
   const auto s = residual_statistics({-5.0F, -0.001F, 0.0F, 0.001F, 0.099F, 7.0F}, 0, 0.1);
   ASSERT_TRUE(s);

@@ -63,7 +63,7 @@ std::string discs(const PlanGroup& group, const Json& report) {
     const auto& p = group.layout.at[k];
     const auto c = scan_colour(group.scans[k]);
     const bool reference = scan.at("status") == "reference";
-    cover += print(
+    if (group.background.empty()) cover += print(
         "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"%.1f\" fill=\"#%02x%02x%02x\" stroke=\"#%02x%02x%02x\" "
         "class=\"cover\"/>\n",
         p.x(), p.y(), group.layout.scale * scan.at("extent_m").get<double>(), c[0], c[1], c[2], c[0], c[1], c[2]);

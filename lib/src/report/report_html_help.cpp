@@ -65,6 +65,7 @@ std::string advice_for_unregistered(const Json& report, const Json& scan) {
 std::string help_section(const Json& report) {
   if (!verifies(report)) return "";
   constexpr std::size_t kMostSpots = 5;
+  constexpr double kFirm = 0.6;  // two links of 30 %, the least overlap that surveyors plan with
   std::string items;
   std::vector<std::size_t> registered;
   for (std::size_t i = 0; i < report.at("scans").size(); ++i) {
@@ -75,18 +76,20 @@ std::string help_section(const Json& report) {
       registered.push_back(i);
     }
   }
+  std::size_t num_weak = 0;
   const std::vector<WeakSpot> spots = weak_spots(registered, held_by(report));
-  for (std::size_t k = 0; k < std::min(kMostSpots, spots.size()); ++k) {
-    if (!spots[k].links.empty()) items += item(advice(report, spots[k]));
+  for (const WeakSpot& spot : spots) {
+    if (num_weak == kMostSpots || spot.links.empty() || spot.weight >= kFirm) break;
+    items += item(advice(report, spot));
+    ++num_weak;
   }
-  const std::vector<std::size_t> order = links_worst_first(report);
-  if (!order.empty() && report.contains("acceptance")) {
-    for (const auto& scan : report.at("scans")) {
-      if (scan.at("status") == "unregistered" || scan.at("acceptance").at("passed") == true) continue;
-      items += item(scan_label(report, scan.at("file")) + " fails the limits (" +
-                    sentence(scan.at("acceptance").at("failures").at(0)) +
-                    "): look at its links in the view, and scan again from its set-up if they are as they seem.");
-    }
+  if (num_weak == 0 && !spots.empty()) {
+    items += item("The net of registered scans has no weak place: what holds any part of it to the rest adds up to " +
+                  percent(Json(spots.front().weight)) + " overlap or more.");
+  }
+  if (report.contains("acceptance") && report.at("acceptance").at("passed") == false) {
+    items += item("Scans that fail the limits are named on top. Colour the view by distance to other scans: where walls are "
+                  "red, scan again; where only leaves or edges are, the limit is narrower than the scene allows.");
   }
   if (items.empty()) return "";
   return section("What would help", "<ul>\n" + items + "</ul>\n" +

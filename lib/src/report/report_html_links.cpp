@@ -70,7 +70,8 @@ std::string histogram(const Json& residuals) {
 
 std::string verdict_of(const Json& link) {
   const auto verdict = link.at("verdict").get<std::string>();
-  return badge(verdict == "accepted" ? "good" : verdict == "rejected" ? "bad" : "fair", verdict);
+  return "<span title=\"" + sentence(link.at("reason")) + "\">" +
+         badge(verdict == "accepted" ? "good" : verdict == "rejected" ? "bad" : "fair", verdict) + "</span>";
 }
 
 }  // namespace
@@ -91,7 +92,7 @@ std::string passed(const Json& of) {
   if (!of.contains("acceptance")) return "";
   std::string why;
   for (const auto& failure : of.at("acceptance").at("failures")) why += (why.empty() ? "" : "; ") + sentence(failure);
-  return why.empty() ? badge("good", "pass") : badge("bad", "fail") + "<br/>" + why;
+  return why.empty() ? badge("good", "pass") : "<span title=\"" + why + "\">" + badge("bad", "fail") + "</span>";
 }
 
 std::string links_section(const Json& report) {
@@ -105,7 +106,6 @@ std::string links_section(const Json& report) {
       return residuals.is_null() ? figure(Json()) : figure(residuals.at(name), factor);
     };
     const bool strength = link.contains("strength");
-    const bool accepted = link.at("verdict") == "accepted";
     attributes.push_back(" data-link=\"" + std::to_string(k) + "\"");
     rows.push_back(
         {scan_label(report, link.at("a")), scan_label(report, link.at("b")), verdict_of(link), passed(link),
@@ -113,7 +113,7 @@ std::string links_section(const Json& report) {
          residuals.is_null() || residuals.at("share_within_limit").is_null() ? ""
                                                                              : percent(residuals.at("share_within_limit")),
          histogram(residuals), strength ? weakest_direction(link.at("strength")) : figure(Json()),
-         strength ? other_axes(link.at("strength")) : "", accepted ? "" : sentence(link.at("reason"))});
+         strength ? other_axes(link.at("strength")) : ""});
   }
   if (rows.empty()) return "";
   const Json all = report.value("residuals", Json());
@@ -135,13 +135,14 @@ std::string links_section(const Json& report) {
              {"within<br/>limit", "number"},
              {"residuals", "text"},
              {"can move unnoticed by", "text wrap"},
-             {"in other directions", "text wrap"},
-             {"reason", "wide"}},
+             {"in other directions", "text wrap"}},
             rows, attributes) +
           note("Residual: distance of a point of one scan from the surface of the other, along its normal; points are "
                "means of voxels of " +
                length(report.at("fine_voxel_m")) +
-               ", and those farther than two voxels from the other scan are not compared. The histogram has the signed "
+               ", and those farther than two voxels from the other scan are not compared. RMS: of "
+               "those within three robust standard deviations, so that leaves and passers-by do not count; 95\u202F%: of all. "
+               "The histogram has the signed "
                "residuals" +
                ends +
                ": a bell about 0 is good, two humps are a shift. Can move unnoticed: how far one scan moves in the "

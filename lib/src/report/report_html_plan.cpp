@@ -121,8 +121,9 @@ std::string plan_section(const Json& report, const Scene& scene) {
           note(std::string(any_setup(report) ? "A disc stands where its scan was taken from, or where that cannot be told "
                                                "at the median of its points"
                                              : "A disc stands at the median of its scan\u2019s points") +
-               "; grey: density of the points seen from above. The faint circle is as large as what holds nine tenths of its points. The "
-               "reference scan has a thick rim. Scans without a place are not drawn."));
+               (scene.num_points() > 0 ? "; grey: density of the points seen from above. "
+                                       : "; the faint circle is as large as what holds nine tenths of its points. ") +
+               "The reference scan has a thick rim. Scans without a place are not drawn."));
 }
 
 }  // namespace tcm_icp::html

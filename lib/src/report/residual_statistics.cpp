@@ -6,6 +6,7 @@
 namespace tcm_icp {
 namespace {
 
+constexpr double kThreeSigma = 3 * 1.4826;  // medians of the absolute value
 constexpr std::size_t kClasses = 31;  // odd: the middle one is about 0
 
 // Reorders the values.
@@ -38,9 +39,17 @@ std::optional<ResidualStatistics> residual_statistics(std::vector<float> distanc
     distance = std::abs(distance);
   }
   out.mean_m = sum / n;
-  out.rms_m = std::sqrt(squares / n);
+  out.rms_all_m = std::sqrt(squares / n);
   out.median_m = percentile(distances_m, 0.5);
   out.p95_m = percentile(distances_m, 0.95);
+  double squares_within = 0, num_within = 0;
+  for (const float distance : distances_m) {
+    const auto d = static_cast<double>(distance);
+    if (d > kThreeSigma * out.median_m) continue;
+    squares_within += d * d;
+    ++num_within;
+  }
+  out.rms_m = std::sqrt(squares_within / num_within);
   if (limit_m > 0) {
     const auto within = std::count_if(distances_m.begin(), distances_m.end(),
                                       [&](float d) { return static_cast<double>(d) <= limit_m; });
@@ -53,6 +62,7 @@ Json to_json(const std::optional<ResidualStatistics>& s) {
   if (!s) return nullptr;
   return {{"points", s->num},
           {"rms_m", s->rms_m},
+          {"rms_all_m", s->rms_all_m},
           {"median_m", s->median_m},
           {"p95_m", s->p95_m},
           {"mean_m", s->mean_m},

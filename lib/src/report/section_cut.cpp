@@ -3,13 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
+
+#include "report/residual_statistics.hpp"
 
 namespace tcm_icp {
 namespace {
 
 // In voxels of the adjustment: a few of them make a wall, and one is thin enough for it to be straight.
 constexpr double kAlongInVoxels = 8, kThicknessInVoxels = 1;
-constexpr double kAspect = 0.36;  // of the window
+constexpr double kAspect = 0.24;  // of the window
 constexpr std::size_t kMostPoints = 60'000;
 
 SectionCut cut_at(const PipelineResult& result, std::size_t number) {
@@ -36,9 +39,10 @@ SectionCut cut_at(const PipelineResult& result, std::size_t number) {
 }
 
 double rms(const std::vector<LinkResidual>& residuals) {
-  double sum = 0;
-  for (const LinkResidual& r : residuals) sum += static_cast<double>(r.distance_m) * static_cast<double>(r.distance_m);
-  return std::sqrt(sum / static_cast<double>(residuals.size()));
+  std::vector<float> distances;
+  for (const LinkResidual& r : residuals) distances.push_back(r.distance_m);
+  const auto statistics = residual_statistics(std::move(distances), 0, 1);
+  return statistics ? statistics->rms_m : 0;
 }
 
 }  // namespace

@@ -66,7 +66,7 @@ class CloudView {
     const narrow = Math.min(1, this.camera.aspect);  // a tall window sees less to its sides
     this.controls.target.copy(middle);
     this.camera.position.copy(middle).addScaledVector(new THREE.Vector3(...directions[from]).normalize(),
-                                                      0.8 * reach / narrow);
+                                                      0.72 * reach / narrow);
     this.camera.near = reach / 2000;
     this.camera.far = 20 * reach / narrow;
     this.camera.updateProjectionMatrix();
