@@ -50,8 +50,8 @@ po::options_description describe(Request& r) {
   po::options_description options("Options");
   options.add_options()("cloud", po::value(&r.clouds), "")("out,o", po::value(&r.out), "file of the picture (PNG)")(
       "view", bind_option(&r.view), "top (y up), oblique (from the south-west), or both side by side")(
-      "size", bind_option(&r.size), "of the picture, in pixels")(
-      "points", bind_option(&r.render.max_points), "most points drawn, evenly over the cloud")(
+      "size", bind_option(&r.size), "of the picture, in pixels")("points", bind_option(&r.render.max_points),
+                                                                 "most points drawn, evenly over the cloud")(
       "force", po::bool_switch(&r.force), "replace the file");
   add_run_options(r.run, options);
   options.add_options()("help,h", "this text");
@@ -66,10 +66,11 @@ int cmd_render(const Arguments& arguments) {
   po::variables_map given;
   po::store(parse_arguments(arguments, description, "cloud"), given);
   if (given.count("help") > 0) {
-    std::cout << "Usage: tcm-icp render CLOUD --out FILE.png [OPTIONS]\n"
-                 "A picture of a merged cloud, each scan in its colour. CLOUD is a folder that tcm-icp register wrote, or "
-                 "a file.\n\n"
-              << description << "\nExample: tcm-icp render out/town --out town.png --view oblique --size 1200x800\n";
+    std::cout
+        << "Usage: tcm-icp render CLOUD --out FILE.png [OPTIONS]\n"
+           "A picture of a merged cloud, each scan in its colour. CLOUD is a folder that tcm-icp register wrote, or "
+           "a file.\n\n"
+        << description << "\nExample: tcm-icp render out/town --out town.png --view oblique --size 1200x800\n";
     return kSuccess;
   }
   po::notify(given);

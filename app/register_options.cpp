@@ -222,7 +222,7 @@ po::options_description report_options(ReportOptions& o, Choices& c) {
       "largest standard deviation of a scan's position that is accepted: 5mm; 0: no limit")(
       "project", value(o.project), "name of the project, for the report")("client", value(o.client), "for whom it is")(
       "instrument", value(o.instrument), "what the scans were taken with")("operator", value(o.surveyor),
-                                                                          "who took or registered them")(
+                                                                           "who took or registered them")(
       "view-points", value(o.view_points), "points of the 3D view and the pictures; 0: neither");
   return report;
 }
@@ -240,11 +240,33 @@ po::options_description cloud_options(OutputOptions& o, Choices& c) {
 }
 
 // What `register --help` shows: what to write, how to run, and what most sets of scans may need.
-constexpr std::array kUsedMost{
-    "out",     "force",     "config", "format",  "each",       "init",            "bin",            "unit",
-    "control", "gnss",      "fix",    "crs",     "accept-residual", "accept-overlap", "accept-sigma", "project",
-    "reference", "level",   "profile", "confidence", "outliers", "method",        "seed",           "threads",
-    "quiet",   "verbose",   "help",   "help-all"};
+constexpr std::array kUsedMost{"out",
+                               "force",
+                               "config",
+                               "format",
+                               "each",
+                               "init",
+                               "bin",
+                               "unit",
+                               "control",
+                               "gnss",
+                               "fix",
+                               "crs",
+                               "accept-residual",
+                               "accept-overlap",
+                               "accept-sigma",
+                               "reference",
+                               "level",
+                               "profile",
+                               "confidence",
+                               "outliers",
+                               "method",
+                               "seed",
+                               "threads",
+                               "quiet",
+                               "verbose",
+                               "help",
+                               "help-all"};
 
 // Options that may stand in a file, too.
 po::options_description configurable(RegisterOptions& o, Choices& c) {
@@ -423,7 +445,8 @@ void print_register_help(Help which, std::ostream& out) {
          "Puts overlapping LiDAR scans (PLY, LAS, E57, PCD, PTX, PTS, text), wherever each lies, into the frame of\n"
          "one of them. SCAN is a file, a folder, a pattern, or one scan of a file (hall.ptx#2). DIR receives "
          "poses.json,\n"
-         "poses/, transforms/, registered.ply, preview.png, report.json and report.html. Lengths are in the unit of the scans.\n\n";
+         "poses/, transforms/, registered.ply, preview.png, report.json and report.html. Lengths are in the unit of "
+         "the scans.\n\n";
   const po::options_description general = command_line_only(o, config), file_options = configurable(o, choices);
   if (which == Help::kAll) {
     out << general << '\n' << file_options;

@@ -47,12 +47,16 @@ TEST_F(ReportHtmlFile, SaysThatThePaperVerifiesNothing) {
 }
 
 TEST_F(ReportHtmlFile, HoldsScansAndLinksAgainstTheLimits) {
-  ASSERT_EQ(register_as("a.ply", "b.ply", {"--accept-residual", "10m", "--accept-overlap", "1%", "--project", "A & <B>"}).exit_code, 0);
+  ASSERT_EQ(
+      register_as("a.ply", "b.ply", {"--accept-residual", "10m", "--accept-overlap", "1%", "--project", "A & <B>"})
+          .exit_code,
+      0);
   EXPECT_EQ(testing::markup_error(page()), "");
   EXPECT_TRUE(page_has("<h1>A &amp; &lt;B&gt;</h1>"));
   EXPECT_TRUE(page_has("Within the limits"));
   EXPECT_EQ(read_json(folder() / "result/report.json")["acceptance"]["passed"], true);
-  const RunResult strict = run(Words{"register", "a.ply", "b.ply", "--out", "strict", "--accept-residual", "1um"} + kSmall);
+  const RunResult strict =
+      run(Words{"register", "a.ply", "b.ply", "--out", "strict", "--accept-residual", "1um"} + kSmall);
   EXPECT_EQ(strict.exit_code, 0) << "limits are for the report; the scans are registered all the same";
   const auto json = read_json(folder() / "strict/report.json");
   EXPECT_EQ(json["acceptance"]["passed"], false);
@@ -63,7 +67,8 @@ TEST_F(ReportHtmlFile, HoldsScansAndLinksAgainstTheLimits) {
 }
 
 TEST_F(ReportHtmlFile, RefusesLimitsWithoutSense) {
-  for (const Words& wrong : {Words{"--accept-residual", "6kg"}, Words{"--accept-overlap", "130%"}, Words{"--accept-sigma", "-1mm"}}) {
+  for (const Words& wrong :
+       {Words{"--accept-residual", "6kg"}, Words{"--accept-overlap", "130%"}, Words{"--accept-sigma", "-1mm"}}) {
     const RunResult result = run(Words{"register", "a.ply", "b.ply", "--out", "result"} + wrong);
     EXPECT_EQ(result.exit_code, 1);
     EXPECT_NE(result.err.find(wrong[0] + " '" + wrong[1] + "': give"), std::string::npos) << result.err;

@@ -50,7 +50,8 @@ TEST(Base64, IsThatOfRfc4648) {
 
 TEST(CloudPicture, ShowsTheUpperPointFromAboveAndYUp) {
   const Eigen::AlignedBox3d box(Eigen::Vector3d(-1, -1, -1), Eigen::Vector3d(1, 1, 1));
-  const std::vector<PicturePoint> points{{{0, 0, 0.5F}, {200, 0, 0}}, {{0, 0, -0.5F}, {0, 200, 0}}, {{0, 0.9F, 0}, {0, 0, 200}}};
+  const std::vector<PicturePoint> points{
+      {{0, 0, 0.5F}, {200, 0, 0}}, {{0, 0, -0.5F}, {0, 200, 0}}, {{0, 0.9F, 0}, {0, 0, 200}}};
   const Image image = draw_cloud(points, box, PictureView::kTop, 101, 101);
   EXPECT_EQ(image.at(50, 50)[1], 0) << "hidden by the point above it";
   EXPECT_GT(image.at(50, 50)[0], 100);

@@ -28,7 +28,7 @@ TEST(WeakSpots, PutsTheWeakestOfSeveralFirst) {
 
 TEST(WeakSpots, FindsTheLeastCutWhereNoLinkIsAlone) {
   // Two triangles, joined by two slight links.
-  const std::vector<WeightedLink> links{{0, 1, 1}, {1, 2, 1}, {2, 0, 1}, {3, 4, 1},
+  const std::vector<WeightedLink> links{{0, 1, 1}, {1, 2, 1}, {2, 0, 1},   {3, 4, 1},
                                         {4, 5, 1}, {5, 3, 1}, {0, 3, 0.2}, {1, 4, 0.3}};
   const auto spots = weak_spots({0, 1, 2, 3, 4, 5}, links);
   ASSERT_EQ(spots.size(), 1U);

@@ -35,7 +35,8 @@ LinkRecord judge_link(std::size_t a, std::size_t b, const LinkMeasurements& m, c
                                                   : "doubtful";
   out.reason = percent(m.evidence.overlap) + " overlap, " + percent(m.evidence.inlier_share) +
                " of that agrees within the noise; moved by " + metres(m.evidence.slide_m) +
-               " in its weakest direction, " + percent(m.evidence.left_after_slide[0]) + " of the agreement would be left";
+               " in its weakest direction, " + percent(m.evidence.left_after_slide[0]) +
+               " of the agreement would be left";
   if (m.free_space.tells()) {
     out.reason += "; " + percent(m.free_space.violation_share()) + " is seen through walls";
   }

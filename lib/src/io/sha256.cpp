@@ -90,7 +90,8 @@ std::string sha256_of_file(const std::filesystem::path& path) {
   if (!in) throw InputError(path, "", "cannot be opened", "check the path and its permissions");
   Sha256 sum;
   std::vector<std::uint8_t> buffer(std::size_t{1} << 20U);
-  while (in.read(reinterpret_cast<char*>(buffer.data()), static_cast<std::streamsize>(buffer.size())) || in.gcount() > 0) {
+  while (in.read(reinterpret_cast<char*>(buffer.data()), static_cast<std::streamsize>(buffer.size())) ||
+         in.gcount() > 0) {
     sum.add({buffer.data(), static_cast<std::size_t>(in.gcount())});
   }
   if (in.bad()) throw InputError(path, "", "cannot be read", "check the disk");

@@ -82,8 +82,7 @@ LinkResiduals link_residuals(const std::vector<JointLink>& links, const std::vec
   for (const JointLink& link : links) {
     const Eigen::Isometry3d T_scan_common = T_common_scan[link.source].inverse();
     for (const Correspondence& m : link.matches) {
-      out.matches.push_back({link.source == links.front().source,
-                             static_cast<float>(m.normal.dot(m.source - m.target)),
+      out.matches.push_back({link.source == links.front().source, static_cast<float>(m.normal.dot(m.source - m.target)),
                              (T_scan_common * m.source).cast<float>()});
     }
   }

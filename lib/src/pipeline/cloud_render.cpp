@@ -22,7 +22,8 @@ namespace fs = std::filesystem;
 
 fs::path cloud_of(const fs::path& path) {
   if (!fs::is_directory(path)) return path;
-  for (const char* const name : {"registered.ply", "registered.las", "registered.e57", "registered.pcd", "registered.xyz"}) {
+  for (const char* const name :
+       {"registered.ply", "registered.las", "registered.e57", "registered.pcd", "registered.xyz"}) {
     if (fs::exists(path / name)) return path / name;
   }
   throw InputError(path, "", "the folder has no merged cloud", "name a folder that tcm-icp register wrote, or a file");
@@ -45,7 +46,8 @@ std::optional<ScanColumn> scan_column(const std::vector<Attribute>& attributes) 
 
 class CloudSampler {
  public:
-  CloudSampler(const fs::path& cloud, const RunContext& context) : context_(context), paths_(scans_in(cloud_of(cloud))) {}
+  CloudSampler(const fs::path& cloud, const RunContext& context)
+      : context_(context), paths_(scans_in(cloud_of(cloud))) {}
 
   Scene sample(std::size_t max_points) {
     std::map<std::size_t, std::uint64_t> counts;

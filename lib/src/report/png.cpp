@@ -16,7 +16,8 @@ void append_chunk(const std::string& type, const std::string& data, std::string&
   const std::string body = type + data;
   to += body;
   append_big_endian(
-      static_cast<std::uint32_t>(crc32(0, reinterpret_cast<const Bytef*>(body.data()), static_cast<uInt>(body.size()))), to);
+      static_cast<std::uint32_t>(crc32(0, reinterpret_cast<const Bytef*>(body.data()), static_cast<uInt>(body.size()))),
+      to);
 }
 
 std::string deflated(const std::string& bytes) {

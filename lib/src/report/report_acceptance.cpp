@@ -79,8 +79,10 @@ Json scan_acceptance(const Json& scan, const AcceptanceLimits& limits, bool is_r
 
 void add_residuals(const PipelineResult& result, double limit_m, Json& report) {
   const ResidualsOfRun residuals = residuals_of(result, limit_m);
-  for (std::size_t i = 0; i < residuals.scans.size(); ++i) report["scans"][i]["residuals"] = to_json(residuals.scans[i]);
-  for (std::size_t k = 0; k < residuals.links.size(); ++k) report["links"][k]["residuals"] = to_json(residuals.links[k]);
+  for (std::size_t i = 0; i < residuals.scans.size(); ++i)
+    report["scans"][i]["residuals"] = to_json(residuals.scans[i]);
+  for (std::size_t k = 0; k < residuals.links.size(); ++k)
+    report["links"][k]["residuals"] = to_json(residuals.links[k]);
   report["residuals"] = to_json(residuals.all);
 }
 
@@ -99,12 +101,9 @@ void add_acceptance(const AcceptanceLimits& limits, bool is_reference_frame, Jso
     failed_links += link["acceptance"]["passed"] == true ? 0 : 1;
   }
   const auto limit = [](double value) { return value > 0 ? Json(value) : Json(nullptr); };
-  report["acceptance"] = {{"residual_m", limit(limits.residual_m)},
-                          {"overlap", limit(limits.overlap)},
-                          {"sigma_m", limit(limits.sigma_m)},
-                          {"passed", failed_scans == 0},
-                          {"failed_scans", failed_scans},
-                          {"failed_links", failed_links}};
+  report["acceptance"] = {{"residual_m", limit(limits.residual_m)}, {"overlap", limit(limits.overlap)},
+                          {"sigma_m", limit(limits.sigma_m)},       {"passed", failed_scans == 0},
+                          {"failed_scans", failed_scans},           {"failed_links", failed_links}};
 }
 
 }  // namespace tcm_icp

@@ -35,8 +35,10 @@ std::string css_string(const std::string& text) {
 std::string page_margins(const Json& report) {
   const Json project = report.value("project", Json::object()).value("project", Json());
   // By way of JSON, which has no bytes that are not UTF-8.
-  const std::string name = project.is_string() ? Json::parse(json_text(project)).get<std::string>() : "Registration report";
-  const std::string started = report.at("started").is_string() ? report.at("started").get<std::string>().substr(0, 10) : "";
+  const std::string name =
+      project.is_string() ? Json::parse(json_text(project)).get<std::string>() : "Registration report";
+  const std::string started =
+      report.at("started").is_string() ? report.at("started").get<std::string>().substr(0, 10) : "";
   return "@page {\n  @top-left { content: " + css_string(name) + "; }\n  @top-right { content: " +
          css_string(started + (started.empty() ? "" : "  \u00B7  ") + report.at("program").get<std::string>() + " " +
                     report.at("version").get<std::string>()) +
@@ -44,7 +46,8 @@ std::string page_margins(const Json& report) {
          "  @bottom-right { content: \"Signature ______________________\"; }\n}\n";
 }
 
-std::string head(const Json& report) {  return "<!DOCTYPE html>\n<html xmlns=\"http://www.w3.org/1999/xhtml\" lang=\"en\">\n<head>\n"
+std::string head(const Json& report) {
+  return "<!DOCTYPE html>\n<html xmlns=\"http://www.w3.org/1999/xhtml\" lang=\"en\">\n<head>\n"
          "<meta charset=\"utf-8\"/>\n<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n"
          "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; "
          "script-src 'unsafe-inline'; img-src data:\"/>\n"
@@ -62,7 +65,8 @@ std::string title(const Json& report) {
       {{"client", "Client: "}, {"instrument", "Instrument: "}, {"operator", "Operator: "}}};
   for (const auto& [key, label] : kTold) {
     const Json value = told.value(key, Json());
-    if (value.is_string()) people += (people.empty() ? "" : " \u00B7 ") + std::string(label) + html::escaped(value.get<std::string>());
+    if (value.is_string())
+      people += (people.empty() ? "" : " \u00B7 ") + std::string(label) + html::escaped(value.get<std::string>());
   }
   const std::string what = "Registration of " + std::to_string(report.at("scans").size()) + " scans";
   return "<header>\n<h1>" + (name.is_string() ? html::escaped(name.get<std::string>()) : what) + "</h1>\n<p>" +
@@ -75,12 +79,13 @@ std::string title(const Json& report) {
 
 std::string report_html(const Json& report, const Scene& scene, const std::vector<SectionCut>& sections) {
   using namespace html;
-  return head(report) + title(report) + "<main>\n" + verdict_section(report) + view_section(scene) + facts_section(report) +
-         help_section(report) + scans_section(report) + links_section(report) + plan_section(report, scene) +
-         sections_section(sections, report) + poses_section(report) + survey_section(report) + loops_section(report) +
-         conflicts_section(report) + pairs_section(report) + merges_section(report) + adjustment_section(report) +
-         measured_section(report) + stages_section(report) + options_section(report) + signature_section() +
-         "</main>\n" + view_scripts(scene, report) + "</body>\n</html>\n";
+  return head(report) + title(report) + "<main>\n" + verdict_section(report) + view_section(scene) +
+         facts_section(report) + help_section(report) + scans_section(report) + links_section(report) +
+         plan_section(report, scene) + sections_section(sections, report) + poses_section(report) +
+         survey_section(report) + loops_section(report) + conflicts_section(report) + pairs_section(report) +
+         merges_section(report) + adjustment_section(report) + measured_section(report) + stages_section(report) +
+         options_section(report) + signature_section() + "</main>\n" + view_scripts(scene, report) +
+         "</body>\n</html>\n";
 }
 
 }  // namespace tcm_icp

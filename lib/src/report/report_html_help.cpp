@@ -31,7 +31,8 @@ std::vector<WeightedLink> held_by(const Json& report) {
 
 std::string advice(const Json& report, const WeakSpot& spot) {
   const bool one = spot.scans.size() == 1;
-  std::string out = (one ? "Scan " : "Scans ") + scans_in_words(report, spot.scans) + (one ? " hangs" : " hang") + " on ";
+  std::string out =
+      (one ? "Scan " : "Scans ") + scans_in_words(report, spot.scans) + (one ? " hangs" : " hang") + " on ";
   const Json& strongest = report.at("links").at(spot.links.front());
   const std::string pair = scan_label(report, strongest.at("a")) + " and " + scan_label(report, strongest.at("b"));
   if (spot.links.size() == 1) {
@@ -51,13 +52,15 @@ std::string advice_for_unregistered(const Json& report, const Json& scan) {
   }
   const std::string label = scan_label(report, scan.at("file"));
   if (likeliest == nullptr) {
-    return label + " shares nothing that was found with any other scan: scan again from between it and its neighbours, "
-                   "30\u202F% overlap or more.";
+    return label +
+           " shares nothing that was found with any other scan: scan again from between it and its neighbours, "
+           "30\u202F% overlap or more.";
   }
   const Json& other = likeliest->at("a") == scan.at("file") ? likeliest->at("b") : likeliest->at("a");
-  return label + " is not registered. What comes closest is a link with " + scan_label(report, other) + " (" +
-         odds(likeliest->at("log_odds").get<double>()) + ", " + percent(likeliest->at("evidence").at("overlap")) +
-         " overlap): one more set-up between these two would settle it.";
+  return label + " is not registered (" + sentence(scan.at("reason")) + "). Its likeliest link is with " +
+         scan_label(report, other) + ", " + percent(likeliest->at("evidence").at("overlap")) + " overlap, " +
+         odds(likeliest->at("log_odds").get<double>()) +
+         ": look at these two first. One more set-up between them would settle it.";
 }
 
 }  // namespace
@@ -84,17 +87,21 @@ std::string help_section(const Json& report) {
     ++num_weak;
   }
   if (num_weak == 0 && !spots.empty()) {
-    items += item("The net of registered scans has no weak place: what holds any part of it to the rest adds up to " +
-                  percent(Json(spots.front().weight)) + " overlap or more.");
+    const WeakSpot& least = spots.front();
+    items += item("The net of registered scans has no weak place. What is held least, " +
+                  scans_in_words(report, least.scans) + ", has " + std::to_string(least.links.size()) +
+                  " links to the rest, whose overlaps add up to " + percent(Json(least.weight)) + ".");
   }
   if (report.contains("acceptance") && report.at("acceptance").at("passed") == false) {
-    items += item("Scans that fail the limits are named on top. Colour the view by distance to other scans: where walls are "
-                  "red, scan again; where only leaves or edges are, the limit is narrower than the scene allows.");
+    items += item(
+        "Scans that fail the limits are named on top. Colour the view by distance to other scans: where walls are "
+        "red, scan again; where only leaves or edges are, the limit is narrower than the scene allows.");
   }
   if (items.empty()) return "";
-  return section("What would help", "<ul>\n" + items + "</ul>\n" +
-                                        note("The weakest places of the net: scans, or groups of scans, that the fewest "
-                                             "and slightest links hold to the others."));
+  return section("What would help",
+                 "<ul>\n" + items + "</ul>\n" +
+                     note("The weakest places of the net: scans, or groups of scans, that the fewest "
+                          "and slightest links hold to the others."));
 }
 
 }  // namespace tcm_icp::html

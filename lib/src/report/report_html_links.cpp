@@ -71,7 +71,11 @@ std::string histogram(const Json& residuals) {
 std::string verdict_of(const Json& link) {
   const auto verdict = link.at("verdict").get<std::string>();
   return "<span title=\"" + sentence(link.at("reason")) + "\">" +
-         badge(verdict == "accepted" ? "good" : verdict == "rejected" ? "bad" : "fair", verdict) + "</span>";
+         badge(verdict == "accepted"   ? "good"
+               : verdict == "rejected" ? "bad"
+                                       : "fair",
+               verdict) +
+         "</span>";
 }
 
 }  // namespace
@@ -107,22 +111,22 @@ std::string links_section(const Json& report) {
     };
     const bool strength = link.contains("strength");
     attributes.push_back(" data-link=\"" + std::to_string(k) + "\"");
-    rows.push_back(
-        {scan_label(report, link.at("a")), scan_label(report, link.at("b")), verdict_of(link), passed(link),
-         percent(e.at("overlap")), of("rms_m", 1000), of("p95_m", 1000),
-         residuals.is_null() || residuals.at("share_within_limit").is_null() ? ""
-                                                                             : percent(residuals.at("share_within_limit")),
-         histogram(residuals), strength ? weakest_direction(link.at("strength")) : figure(Json()),
-         strength ? other_axes(link.at("strength")) : ""});
+    rows.push_back({scan_label(report, link.at("a")), scan_label(report, link.at("b")), verdict_of(link), passed(link),
+                    percent(e.at("overlap")), of("rms_m", 1000), of("p95_m", 1000),
+                    residuals.is_null() || residuals.at("share_within_limit").is_null()
+                        ? ""
+                        : percent(residuals.at("share_within_limit")),
+                    histogram(residuals), strength ? weakest_direction(link.at("strength")) : figure(Json()),
+                    strength ? other_axes(link.at("strength")) : ""});
   }
   if (rows.empty()) return "";
   const Json all = report.value("residuals", Json());
-  const std::string ends =
-      all.is_null() ? ""
-                    : " (\u00B1" +
-                          length(all.at("histogram").at("class_m").get<double>() *
-                                 static_cast<double>(all.at("histogram").at("counts").size()) / 2) +
-                          ")";
+  const std::string ends = all.is_null()
+                               ? ""
+                               : " (\u00B1" +
+                                     length(all.at("histogram").at("class_m").get<double>() *
+                                            static_cast<double>(all.at("histogram").at("counts").size()) / 2) +
+                                     ")";
   return section(
       "Links between scans that overlap, worst first",
       table({{"scan", "name"},
@@ -141,7 +145,8 @@ std::string links_section(const Json& report) {
                "means of voxels of " +
                length(report.at("fine_voxel_m")) +
                ", and those farther than two voxels from the other scan are not compared. RMS: of "
-               "those within three robust standard deviations, so that leaves and passers-by do not count; 95\u202F%: of all. "
+               "those within three robust standard deviations, so that leaves and passers-by do not count; 95\u202F%: "
+               "of all. "
                "The histogram has the signed "
                "residuals" +
                ends +

@@ -13,14 +13,14 @@ std::string loops_section(const Json& report) {
     rows.push_back({scans, figure(loop.at("distance_m"), 1000), figure(loop.at("rotation_deg"))});
   }
   const std::string number = count(loops.at("loops"));
-  return section("Loop misclosures",
-                 "<p>" + number + " loops of three scans; root mean square misclosure " + length(loops.at("rms_m")) +
-                     ".</p>\n" +
-                     table({{"around", "wide"}, {"misclosure<br/>[mm]", "number"}, {"[\u00B0]", "number"}}, rows) +
-                     note("Each pair of a loop was fitted by itself, at voxels of " + length(report.at("coarse_voxel_m")) +
-                          ", before all were adjusted together; going round, one should come back to the start. What "
-                          "is left, at the middle of the first scan\u2019s points, checks pairs by one another, the "
-                          "worst first."));
+  return section(
+      "Loop misclosures",
+      "<p>" + number + " loops of three scans; root mean square misclosure " + length(loops.at("rms_m")) + ".</p>\n" +
+          table({{"around", "wide"}, {"misclosure<br/>[mm]", "number"}, {"[\u00B0]", "number"}}, rows) +
+          note("Each pair of a loop was fitted by itself, at voxels of " + length(report.at("coarse_voxel_m")) +
+               ", before all were adjusted together; going round, one should come back to the start. What "
+               "is left, at the middle of the first scan\u2019s points, checks pairs by one another, the "
+               "worst first."));
 }
 
 }  // namespace tcm_icp::html

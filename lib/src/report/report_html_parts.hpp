@@ -16,11 +16,12 @@ namespace tcm_icp::html {
 std::string verdict_section(const Json& report);  ///< how many scans are registered, which are not, and why
 std::string facts_section(const Json& report);    ///< the figures that matter most
 std::string view_section(const Scene& scene);     ///< the merged cloud, as a picture that a script makes a 3D view of
-std::string plan_section(const Json& report, const Scene& scene);     ///< top view: scans where they were registered, and their links
+std::string plan_section(const Json& report,
+                         const Scene& scene);  ///< top view: scans where they were registered, and their links
 std::string scans_section(const Json& report);
 std::string survey_section(const Json& report);  ///< empty where no survey frame was asked for
-std::string poses_section(const Json& report);     ///< where each scan lies, in numbers
-std::string help_section(const Json& report);      ///< what would make the result firmer
+std::string poses_section(const Json& report);   ///< where each scan lies, in numbers
+std::string help_section(const Json& report);    ///< what would make the result firmer
 std::string loops_section(const Json& report);
 std::string sections_section(const std::vector<SectionCut>& cuts, const Json& report);
 std::string links_section(const Json& report);

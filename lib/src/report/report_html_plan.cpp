@@ -93,8 +93,8 @@ std::string density(const PlanLayout& plan, const Scene& scene) {
   const std::string bytes = png(image);
   const auto* const data = reinterpret_cast<const std::uint8_t*>(bytes.data());
   return "<image width=\"" + std::to_string(static_cast<int>(plan.width)) + "\" height=\"" +
-         std::to_string(static_cast<int>(plan.height)) + "\" preserveAspectRatio=\"none\" href=\"data:image/png;base64," +
-         base64({data, bytes.size()}) + "\"/>\n";
+         std::to_string(static_cast<int>(plan.height)) +
+         "\" preserveAspectRatio=\"none\" href=\"data:image/png;base64," + base64({data, bytes.size()}) + "\"/>\n";
 }
 
 }  // namespace
@@ -118,9 +118,10 @@ std::string plan_section(const Json& report, const Scene& scene) {
   return section(
       "Plan",
       "<p class=\"legend\">\n" + legend(report) + "</p>\n" + figures +
-          note(std::string(any_setup(report) ? "A disc stands where its scan was taken from, or where that cannot be told "
-                                               "at the median of its points"
-                                             : "A disc stands at the median of its scan\u2019s points") +
+          note(std::string(any_setup(report)
+                               ? "A disc stands where its scan was taken from, or where that cannot be told "
+                                 "at the median of its points"
+                               : "A disc stands at the median of its scan\u2019s points") +
                (scene.num_points() > 0 ? "; grey: density of the points seen from above. "
                                        : "; the faint circle is as large as what holds nine tenths of its points. ") +
                "The reference scan has a thick rim. Scans without a place are not drawn."));

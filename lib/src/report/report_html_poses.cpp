@@ -59,12 +59,14 @@ std::string poses_section(const Json& report) {
              {"1\u03C3 Z<br/>[mm]", "number"},
              {"1\u03C3 turn<br/>[\u00B0]", "number"}},
             rows) +
-          note("Where each scan lies in the common frame. X, Y, Z are those of its scanner, found from the points "
-               "themselves (set-up), or where that cannot be told those of the origin of the file\u2019s coordinates. "
-               "Heading: by how much the scan\u2019s x axis is turned about the vertical, anticlockwise seen from above; "
-               "tilt: angle between its z axis and that of the frame. 1\u03C3: standard deviation of the middle of the "
-               "scan\u2019s points against the reference scan or the survey frame. poses.json has the matrices with all "
-               "their digits."));
+          note(
+              "Where each scan lies in the common frame. X, Y, Z are those of its scanner, found from the points "
+              "themselves (set-up), or where that cannot be told those of the origin of the file\u2019s coordinates. "
+              "Heading: by how much the scan\u2019s x axis is turned about the vertical, anticlockwise seen from "
+              "above; "
+              "tilt: angle between its z axis and that of the frame. 1\u03C3: standard deviation of the middle of the "
+              "scan\u2019s points against the reference scan or the survey frame. poses.json has the matrices with all "
+              "their digits."));
 }
 
 }  // namespace tcm_icp::html

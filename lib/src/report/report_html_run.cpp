@@ -100,7 +100,8 @@ std::string options_section(const Json& report) {
   Rows sums;
   for (const auto& scan : report.at("scans")) {
     if (scan.contains("sha256")) {
-      sums.push_back({scan_label(report, scan.at("file")), "<span class=\"sum\">" + escaped(scan.at("sha256").get<std::string>()) + "</span>"});
+      sums.push_back({scan_label(report, scan.at("file")),
+                      "<span class=\"sum\">" + escaped(scan.at("sha256").get<std::string>()) + "</span>"});
     }
   }
   const Json& initial = report.at("initial_poses");

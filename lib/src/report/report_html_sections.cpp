@@ -74,10 +74,11 @@ std::string sections_section(const std::vector<SectionCut>& cuts, const Json& re
                " meet (RMS residual " + length(r.at("rms_m")) + ").</figcaption>\n</figure>\n";
   }
   if (figures.empty()) return "";
-  return section("Thin sections", figures + note("All raw points within the section, each scan in its colour; the first "
-                                                 "is at the link with the largest residuals, the second where two "
-                                                 "scans share the most points. Where scans fit, their points lie on "
-                                                 "one line as thick as the noise; two lines side by side are an error."));
+  return section("Thin sections",
+                 figures + note("All raw points within the section, each scan in its colour; the first "
+                                "is at the link with the largest residuals, the second where two "
+                                "scans share the most points. Where scans fit, their points lie on "
+                                "one line as thick as the noise; two lines side by side are an error."));
 }
 
 }  // namespace tcm_icp::html

@@ -38,7 +38,8 @@ using Rows = std::vector<std::vector<std::string>>;  ///< of cells that are HTML
 
 /// Columns without any content are left out. The first line is repeated on each printed page.
 /// @param attributes  of the rows' elements, where there are any: " data-link=\"3\""
-std::string table(const std::vector<Column>& columns, const Rows& rows, const std::vector<std::string>& attributes = {});
+std::string table(const std::vector<Column>& columns, const Rows& rows,
+                  const std::vector<std::string>& attributes = {});
 
 /// A length in the unit a person would say it in: "4.2 mm", "31 cm", "2.5 m"; a dash for null.
 std::string length(const Json& metres);

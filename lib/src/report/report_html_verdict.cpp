@@ -69,7 +69,8 @@ std::string limits_in_words(const Json& limits) {
 
 std::string acceptance(const Json& report) {
   if (!report.contains("acceptance")) {
-    return "<p class=\"note\">No limits were given, so it is not said whether the result is exact enough: --accept-residual, "
+    return "<p class=\"note\">No limits were given, so it is not said whether the result is exact enough: "
+           "--accept-residual, "
            "--accept-overlap and --accept-sigma of tcm-icp register do that.</p>\n";
   }
   const Json& limits = report.at("acceptance");
@@ -87,7 +88,8 @@ std::string acceptance(const Json& report) {
   for (const auto& scan : report.at("scans")) {
     if (scan.at("acceptance").at("passed") == true || !registered(scan)) continue;
     std::string why;
-    for (const auto& failure : scan.at("acceptance").at("failures")) why += (why.empty() ? "" : "; ") + sentence(failure);
+    for (const auto& failure : scan.at("acceptance").at("failures"))
+      why += (why.empty() ? "" : "; ") + sentence(failure);
     items += "<li>" + scan_label(report, scan.at("file")) + ": " + why + "</li>\n";
   }
   return "<p><b>Outside the limits</b>: " + count(limits.at("failed_scans")) + " of " + std::to_string(n) +
@@ -138,8 +140,9 @@ std::string key_figures(const Json& report) {
   if (!order.empty() && report.contains("residuals") && !report.at("residuals").is_null()) {
     const Json& worst = links.at(order.front());
     if (!worst.at("residuals").is_null()) {
-      pairs.push_back({"worst link", scan_label(report, worst.at("a")) + " \u2013 " + scan_label(report, worst.at("b")) +
-                                         ", RMS " + length(worst.at("residuals").at("rms_m"))});
+      pairs.push_back({"worst link", scan_label(report, worst.at("a")) + " \u2013 " +
+                                         scan_label(report, worst.at("b")) + ", RMS " +
+                                         length(worst.at("residuals").at("rms_m"))});
     }
     pairs.push_back({"RMS residual of all links", length(report.at("residuals").at("rms_m"))});
     if (!report.at("residuals").at("share_within_limit").is_null()) {
@@ -170,8 +173,8 @@ std::string verdict_section(const Json& report) {
   const std::string kind = !all || !passes ? "bad" : doubts ? "fair" : "good";
   const std::string line =
       of + (verifies(report) ? " scans are registered." : " scans have a pose, none of them verified.");
-  return "<section>\n<div class=\"verdict " + kind + "\">\n<p class=\"line\">" + line + "</p>\n" +
-         acceptance(report) + unregistered_list(report) + remarks(report) + "</div>\n</section>\n";
+  return "<section>\n<div class=\"verdict " + kind + "\">\n<p class=\"line\">" + line + "</p>\n" + acceptance(report) +
+         unregistered_list(report) + remarks(report) + "</div>\n</section>\n";
 }
 
 std::string facts_section(const Json& report) { return "<section>\n" + key_figures(report) + "</section>\n"; }

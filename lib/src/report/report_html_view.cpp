@@ -11,7 +11,8 @@ namespace {
 constexpr int kPictureWidth = 1100, kPictureHeight = 620;
 
 // What a script element holds is neither escaped nor read as markup, as HTML; as XML it is character data.
-std::string script(std::string_view attributes, std::string_view before, std::string_view text, std::string_view after) {
+std::string script(std::string_view attributes, std::string_view before, std::string_view text,
+                   std::string_view after) {
   return "<script" + std::string(attributes) + ">" + std::string(before) + std::string(text) + std::string(after) +
          "</script>\n";
 }
@@ -34,7 +35,8 @@ std::string controls() {
          "<span><button type=\"button\" data-look=\"top\">Top</button> "
          "<button type=\"button\" data-look=\"side\">Side</button> "
          "<button type=\"button\" data-look=\"oblique\">Oblique</button></span>\n"
-         "<label>points <input type=\"range\" name=\"view-size\" min=\"-1\" max=\"2\" step=\"0.25\" value=\"0\"/></label>\n"
+         "<label>points <input type=\"range\" name=\"view-size\" min=\"-1\" max=\"2\" step=\"0.25\" "
+         "value=\"0\"/></label>\n"
          "</div>\n";
 }
 
@@ -56,15 +58,16 @@ std::string view_section(const Scene& scene) {
          "\n<div class=\"view-legend\" hidden=\"hidden\"><i></i><span><b class=\"low\"></b><b class=\"half\"></b>"
          "<b class=\"high\"></b></span><em></em></div>\n<div class=\"view-link\" hidden=\"hidden\"></div>\n</div>\n"
          "<div class=\"view-scans\"></div>\n</div>\n"
-         "<p class=\"note\">The registered scans, each in its colour. A click on a link, here or in the table of links, "
+         "<p class=\"note\">The registered scans, each in its colour. A click on a link, here or in the table of "
+         "links, "
          "shows its two scans alone, how far they are apart, and where one could slide unnoticed. Cones: set-ups; "
          "balls: middles of scans whose set-up is not known.</p>\n</section>\n";
 }
 
 std::string view_scripts(const Scene& scene, const Json& report) {
   if (three_script().empty() || scene.num_points() == 0) return "";
-  return script(" type=\"application/json\" id=\"view-data\"", "", view_data(scene, report), "") + code(three_script()) +
-         code("(function () {\n'use strict';\n" + std::string(view_script()) + "})();");
+  return script(" type=\"application/json\" id=\"view-data\"", "", view_data(scene, report), "") +
+         code(three_script()) + code("(function () {\n'use strict';\n" + std::string(view_script()) + "})();");
 }
 
 }  // namespace tcm_icp::html

@@ -52,8 +52,7 @@ Json pose_json(const PipelineResult& result, std::size_t scan) {
   const ScanPose& pose = result.poses[scan];
   if (pose.status == ScanStatus::kUnregistered) return nullptr;
   const Eigen::Isometry3d& T = pose.T_reference_scan;
-  const bool is_setup =
-      !result.viewpoints.empty() && result.viewpoints[scan] && result.viewpoints[scan]->determined();
+  const bool is_setup = !result.viewpoints.empty() && result.viewpoints[scan] && result.viewpoints[scan]->determined();
   const Eigen::Vector3d at = is_setup ? result.viewpoints[scan]->place : Eigen::Vector3d::Zero();
   return {{"position_m", vector(T * at)},
           {"is_setup", is_setup},
@@ -79,9 +78,8 @@ Json loops_json(const PipelineResult& result) {
   for (std::size_t k = 0; k < std::min(kMostLoops, loops.size()); ++k) {
     Json scans = Json::array();
     for (const std::size_t i : loops[k].scans) scans.push_back(result.scans[i].file);
-    worst.push_back({{"scans", scans},
-                     {"distance_m", loops[k].distance_m},
-                     {"rotation_deg", kDegrees * loops[k].angle_rad}});
+    worst.push_back(
+        {{"scans", scans}, {"distance_m", loops[k].distance_m}, {"rotation_deg", kDegrees * loops[k].angle_rad}});
   }
   return {{"loops", loops.size()},
           {"rms_m", loops.empty() ? Json(nullptr) : Json(std::sqrt(squares / static_cast<double>(loops.size())))},

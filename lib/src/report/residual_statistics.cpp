@@ -7,7 +7,7 @@ namespace tcm_icp {
 namespace {
 
 constexpr double kThreeSigma = 3 * 1.4826;  // medians of the absolute value
-constexpr std::size_t kClasses = 31;  // odd: the middle one is about 0
+constexpr std::size_t kClasses = 31;        // odd: the middle one is about 0
 
 // Reorders the values.
 double percentile(std::vector<float>& values, double share) {

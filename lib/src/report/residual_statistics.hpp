@@ -12,12 +12,12 @@ namespace tcm_icp {
 /// Histogram of signed distances over [-width_m * counts / 2, ...]; those beyond are in the outermost classes.
 struct ResidualStatistics {
   std::size_t num = 0;
-  double median_m = 0, p95_m = 0;  ///< of the absolute values
-  double rms_all_m = 0;            ///< leaves, passers-by and edges count as much as walls
-  double rms_m = 0;                ///< of those within three robust standard deviations (4.45 medians)
-  double mean_m = 0;                          ///< with signs: of a link it should be about 0
-  std::optional<double> share_accepted;       ///< within the limit asked for
-  double class_m = 0;                         ///< width of a class of the histogram
+  double median_m = 0, p95_m = 0;        ///< of the absolute values
+  double rms_all_m = 0;                  ///< leaves, passers-by and edges count as much as walls
+  double rms_m = 0;                      ///< of those within three robust standard deviations (4.45 medians)
+  double mean_m = 0;                     ///< with signs: of a link it should be about 0
+  std::optional<double> share_accepted;  ///< within the limit asked for
+  double class_m = 0;                    ///< width of a class of the histogram
   std::vector<std::size_t> counts;
 };
 

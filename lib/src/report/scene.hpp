@@ -26,8 +26,8 @@ struct SceneScan {
 struct Scene {
   static constexpr std::uint8_t kNoSurface = 255;
 
-  std::vector<SceneScan> scans;  ///< all of the run; those without a pose have no points
-  double most_m = 0;             ///< [m] distance that is 254; 0: distances are not known
+  std::vector<SceneScan> scans;                      ///< all of the run; those without a pose have no points
+  double most_m = 0;                                 ///< [m] distance that is 254; 0: distances are not known
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< [m] view frame = common frame minus this
   /// [m] box about all but stray points of the registered scans, view frame.
   Eigen::AlignedBox3d box;

@@ -17,7 +17,8 @@ constexpr std::size_t kMostPoints = 60'000;
 
 SectionCut cut_at(const PipelineResult& result, std::size_t number) {
   const LinkRecord& link = result.links[number];
-  Eigen::Isometry3d T_view_a = result.poses[link.a].T_reference_scan * Eigen::Translation3d(result.scans[link.a].origin);
+  Eigen::Isometry3d T_view_a =
+      result.poses[link.a].T_reference_scan * Eigen::Translation3d(result.scans[link.a].origin);
   T_view_a.pretranslate(-result.local_origin());
   const Eigen::Vector3d at = T_view_a * link.residuals.contact->point;
   const Eigen::Vector3d across = (T_view_a.linear() * link.residuals.contact->normal).normalized();

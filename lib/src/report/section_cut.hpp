@@ -16,7 +16,7 @@ struct SectionPoint {
 
 /// A window on a plane across a surface: `along` the surface, `across` it, and `half_thickness_m` to either side.
 struct SectionCut {
-  std::size_t link = 0;  ///< position of the link whose scans meet here
+  std::size_t link = 0;                                              ///< position of the link whose scans meet here
   Eigen::Isometry3d T_section_view = Eigen::Isometry3d::Identity();  ///< x along, y across, z out of the plane
   double half_along_m = 0, half_across_m = 0, half_thickness_m = 0;
   bool is_level = false;  ///< the plane is level: a piece of a plan; else it is upright

@@ -58,10 +58,14 @@ std::string without_markup(const std::string& json) {
   std::string out;
   out.reserve(json.size());
   for (const char c : json) {
-    if (c == '<') out += "\\u003c";
-    else if (c == '>') out += "\\u003e";
-    else if (c == '&') out += "\\u0026";
-    else out += c;
+    if (c == '<')
+      out += "\\u003c";
+    else if (c == '>')
+      out += "\\u003e";
+    else if (c == '&')
+      out += "\\u0026";
+    else
+      out += c;
   }
   return out;
 }
@@ -98,7 +102,10 @@ std::string view_data(const Scene& scene, const Json& report) {
     if (link.contains("strength")) {
       const Json& centre = link.at("strength").at("centre_m");
       Eigen::Vector3d at;
-      for (int k = 0; k < 3; ++k) at[k] = centre.at(static_cast<std::size_t>(k)).is_number() ? centre.at(static_cast<std::size_t>(k)).get<double>() : 0;
+      for (int k = 0; k < 3; ++k)
+        at[k] = centre.at(static_cast<std::size_t>(k)).is_number()
+                    ? centre.at(static_cast<std::size_t>(k)).get<double>()
+                    : 0;
       j["strength"] = {{"centre", floats(at - scene.origin)},
                        {"radius_m", link.at("strength").at("radius_m")},
                        {"axis", link.at("strength").at("axes").at(0)}};

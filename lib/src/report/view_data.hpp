@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "report/scene.hpp"
 #include "report/report_parts.hpp"
+#include "report/scene.hpp"
 
 namespace tcm_icp {
 

@@ -17,12 +17,12 @@ struct RenderOptions {
   void validate() const;               ///< throws InvalidOptions
 };
 
-/// Draws a merged cloud, each scan in the colour that reports give it, from above (y up), obliquely from the south-west,
-/// or both side by side, as PNG.
+/// Draws a merged cloud, each scan in the colour that reports give it, from above (y up), obliquely from the
+/// south-west, or both side by side, as PNG.
 /// @param cloud  folder of a result, which has one registered.*; or a file of points. Scans are told by the property
 ///               "scan", or as those of one file
 /// @throws InputError, OutputError, InvalidOptions, Cancelled
-void render_cloud(const std::filesystem::path& cloud, const std::filesystem::path& picture, const RenderOptions& options,
-                  const RunContext& context);
+void render_cloud(const std::filesystem::path& cloud, const std::filesystem::path& picture,
+                  const RenderOptions& options, const RunContext& context);
 
 }  // namespace tcm_icp
