@@ -63,15 +63,29 @@ class CloudView {
     const directions = {oblique: [-0.55, -0.75, 0.62], top: [0, -0.0005, 1], side: [0, -1, 0.06]};
     const box = this.registered ? [this.low, this.high] : this.inputBox();
     const middle = box[0].clone().add(box[1]).multiplyScalar(0.5), reach = Math.max(box[1].distanceTo(box[0]), 1e-3);
-    const narrow = Math.min(1, this.camera.aspect);  // a tall window sees less to its sides
+    const towards = new THREE.Vector3(...directions[from]).normalize();
+    const spare = from === 'oblique' ? 0.82 : 1.02;  // the box's corners are empty, seen obliquely
     this.controls.target.copy(middle);
-    this.camera.position.copy(middle).addScaledVector(new THREE.Vector3(...directions[from]).normalize(),
-                                                      0.72 * reach / narrow);
+    this.camera.position.copy(middle).addScaledVector(
+        towards, Math.max(spare * this.distanceFor(box, middle, towards), reach / 1000));
     this.camera.near = reach / 2000;
-    this.camera.far = 20 * reach / narrow;
+    this.camera.far = 20 * reach / Math.min(1, this.camera.aspect);
     this.camera.updateProjectionMatrix();
     this.controls.update();
     this.draw();
+  }
+
+  // From where all corners of the box are seen.
+  distanceFor(box, middle, towards) {
+    const right = this.camera.up.clone().cross(towards).normalize(), up = towards.clone().cross(right);
+    const slope = Math.tan(this.camera.fov * Math.PI / 360);
+    let distance = 0;
+    for (let corner = 0; corner < 8; ++corner) {
+      const p = new THREE.Vector3(box[corner & 1].x, box[corner >> 1 & 1].y, box[corner >> 2].z).sub(middle);
+      const needed = Math.max(Math.abs(p.dot(up)), Math.abs(p.dot(right)) / this.camera.aspect) / slope;
+      distance = Math.max(distance, p.dot(towards) + needed);
+    }
+    return distance;
   }
 
   // The frames of the files may be anywhere: what they hold, roughly.

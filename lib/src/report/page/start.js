@@ -8,10 +8,15 @@ function labelsOf(view, stage) {
     stage.appendChild(label);
     return [label, mark];
   });
-  return () => labels.forEach(([label, mark]) => {
+  const kApart = 16;  // [pixels] those that would cover an earlier one are left out until one comes nearer
+  let placed = [];
+  const isFree = at => placed.every(p => Math.hypot(p[0] - at[0], p[1] - at[1]) > kApart);
+  return () => (placed = []) && labels.forEach(([label, mark]) => {
     const at = mark.visible ? view.onScreen(mark.position) : null;
-    label.hidden = !at;
-    if (at) label.style.transform = 'translate(' + at[0].toFixed(1) + 'px,' + at[1].toFixed(1) + 'px)';
+    label.hidden = !at || !isFree(at);
+    if (label.hidden) return;
+    placed.push(at);
+    label.style.transform = 'translate(' + at[0].toFixed(1) + 'px,' + at[1].toFixed(1) + 'px)';
   });
 }
 
