@@ -73,7 +73,7 @@ int cmd_register(const Arguments& arguments) {
   clouds.crs_text = epsg_text(survey.crs).value_or("");
   PipelineResult result = run_method(o, paths, guess, survey, context);
   write_result(o.out, o.force, paths, result, o.pipeline, clouds, context,
-               {kVersion, command_line("register", arguments), o.initial_poses, started});
+               {kVersion, command_line("register", arguments), o.initial_poses, started, o.report});
   console.finish();
   if (!o.quiet) {
     const bool verified = o.method == Method::kTcm && o.pipeline.profile == Profile::kRobust;

@@ -20,6 +20,7 @@ enum ExitCode : int {
 using Arguments = std::vector<std::string>;
 
 int cmd_register(const Arguments& arguments);
+int cmd_render(const Arguments& arguments);
 int cmd_evaluate(const Arguments& arguments);
 int cmd_degrade(const Arguments& arguments);
 int cmd_inspect(const Arguments& arguments);

@@ -29,6 +29,7 @@ constexpr std::array kCommands{
     Command{"evaluate", cmd_evaluate, "errors of poses against ground truth"},
     Command{"degrade", cmd_degrade, "copies of scans with noise, occlusion, sparsity and other defects"},
     Command{"inspect", cmd_inspect, "counts, extents, spacing, TCM and correspondence graph of scans"},
+    Command{"render", cmd_render, "picture of a merged cloud, from above and obliquely"},
     Command{"simulate", cmd_simulate, "LiDAR scans of a made-up scene, with exact truth"},
 };
 

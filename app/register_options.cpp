@@ -1,5 +1,6 @@
 #include "register_options.hpp"
 
+#include <algorithm>
 #include <array>
 #include <boost/make_shared.hpp>
 #include <boost/program_options/parsers.hpp>
@@ -11,6 +12,7 @@
 #include <limits>
 #include <ostream>
 #include <sstream>
+#include <string_view>
 #include <utility>
 
 #include "option_binding.hpp"
@@ -91,6 +93,7 @@ struct Choices {
   std::string profile, solver, outliers, refinement, formulation, merge_order, method = "tcm";
   std::string voxel = "0", format = kFormats.name(OutputOptions{}.format),
               colour = kColours.name(OutputOptions{}.colour);
+  std::string accept_residual = "0", accept_overlap = "0", accept_sigma = "0";
 
   explicit Choices(const PipelineOptions& p)
       : profile(kProfiles.name(p.profile)),
@@ -123,6 +126,33 @@ double parse_voxel(const std::string& text) {
   throw InvalidOptions("--voxel '" + text +
                        "': give a length of at least 0 as a bare number, in the unit of the scans (0.05 for 5 cm where "
                        "that is the metre; 0: all points)");
+}
+
+/// "6mm", "0.6 cm", "0.006": a bare number is metres, as results are.
+double parse_length(const std::string& option, const std::string& text) {
+  constexpr std::array<std::pair<std::string_view, double>, 6> kUnits{
+      {{"", 1}, {"m", 1}, {"cm", 0.01}, {"mm", 0.001}, {"um", 1e-6}, {"ft", 0.3048}}};
+  double length = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), length);
+  std::string_view unit(end, static_cast<std::size_t>(text.data() + text.size() - end));
+  unit.remove_prefix(std::min(unit.find_first_not_of(' '), unit.size()));
+  for (const auto& [name, metres] : kUnits) {
+    if (error == std::errc() && unit == name && std::isfinite(length) && length >= 0) return length * metres;
+  }
+  throw InvalidOptions("--" + option + " '" + text +
+                       "': give a length of at least 0 with its unit: 6mm, 0.6cm, 0.006m (m where there is none; 0: no "
+                       "limit)");
+}
+
+/// "30%" or "0.3".
+double parse_share(const std::string& option, const std::string& text) {
+  double share = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), share);
+  const std::string_view rest(end, static_cast<std::size_t>(text.data() + text.size() - end));
+  if (rest == "%" || rest == " %") share /= 100;
+  const bool is_known = rest.empty() || rest == "%" || rest == " %";
+  if (error == std::errc() && is_known && share >= 0 && share <= 1) return share;
+  throw InvalidOptions("--" + option + " '" + text + "': give a share of 0% to 100%: 30% or 0.3 (0: no limit)");
 }
 
 template <typename T>
@@ -184,6 +214,21 @@ po::options_description survey_options(SurveyOptions& o) {
   return survey;
 }
 
+po::options_description report_options(ReportOptions& o, Choices& c) {
+  po::options_description report("Report");
+  report.add_options()("accept-residual", value(c.accept_residual),
+                       "largest RMS residual of a scan and of a link that is accepted: 6mm; 0: no limit")(
+      "accept-overlap", value(c.accept_overlap),
+      "least overlap of a scan with the others, and of a link: 30%; 0: no limit")(
+      "accept-sigma", value(c.accept_sigma),
+      "largest standard deviation of a scan's position that is accepted: 5mm; 0: no limit")(
+      "project", value(o.project), "name of the project, for the report")("client", value(o.client), "for whom it is")(
+      "instrument", value(o.instrument), "what the scans were taken with")("operator", value(o.surveyor),
+                                                                           "who took or registered them")(
+      "view-points", value(o.view_points), "points of the 3D view and the pictures; 0: neither");
+  return report;
+}
+
 po::options_description cloud_options(OutputOptions& o, Choices& c) {
   po::options_description clouds("Clouds written");
   clouds.add_options()("format", value(c.format),
@@ -197,10 +242,33 @@ po::options_description cloud_options(OutputOptions& o, Choices& c) {
 }
 
 // What `register --help` shows: what to write, how to run, and what most sets of scans may need.
-constexpr std::array kUsedMost{"out",       "force",   "config",  "format",     "each",     "init",
-                               "bin",       "unit",    "control", "gnss",       "fix",      "crs",
-                               "reference", "level",   "profile", "confidence", "outliers", "method",
-                               "seed",      "threads", "quiet",   "verbose",    "help",     "help-all"};
+constexpr std::array kUsedMost{"out",
+                               "force",
+                               "config",
+                               "format",
+                               "each",
+                               "init",
+                               "bin",
+                               "unit",
+                               "control",
+                               "gnss",
+                               "fix",
+                               "crs",
+                               "accept-residual",
+                               "accept-overlap",
+                               "accept-sigma",
+                               "reference",
+                               "level",
+                               "profile",
+                               "confidence",
+                               "outliers",
+                               "method",
+                               "seed",
+                               "threads",
+                               "quiet",
+                               "verbose",
+                               "help",
+                               "help-all"};
 
 // Options that may stand in a file, too.
 po::options_description configurable(RegisterOptions& o, Choices& c) {
@@ -240,6 +308,7 @@ po::options_description configurable(RegisterOptions& o, Choices& c) {
       "adjustment.steps", value(p.adjustment.steps), "most joint least-squares steps of all poses after them; 0: none");
   main.add(survey_options(o.survey))
       .add(cloud_options(o.clouds, c))
+      .add(report_options(o.report, c))
       .add(outlier_options(p, c))
       .add(sampling_options(p))
       .add(placement);
@@ -339,6 +408,9 @@ RegisterOptions parse_register_options(const Arguments& arguments) {
   o.clouds.colour = kColours.parse(choices.colour);
   o.clouds.voxel_m = parse_voxel(choices.voxel);
   o.clouds.validate();
+  o.report.accept = {parse_length("accept-residual", choices.accept_residual),
+                     parse_share("accept-overlap", choices.accept_overlap),
+                     parse_length("accept-sigma", choices.accept_sigma)};
   if (o.method != Method::kTcm) use_conventional_defaults(map, choices);
   finish(o, choices);
   return o;
@@ -375,7 +447,8 @@ void print_register_help(Help which, std::ostream& out) {
          "Puts overlapping LiDAR scans (PLY, LAS, E57, PCD, PTX, PTS, text), wherever each lies, into the frame of\n"
          "one of them. SCAN is a file, a folder, a pattern, or one scan of a file (hall.ptx#2). DIR receives "
          "poses.json,\n"
-         "poses/, transforms/, registered.ply, report.json and report.html. Lengths are in the unit of the scans.\n\n";
+         "poses/, transforms/, registered.ply, preview.png, report.json and report.html. Lengths are in the unit of "
+         "the scans.\n\n";
   const po::options_description general = command_line_only(o, config), file_options = configurable(o, choices);
   if (which == Help::kAll) {
     out << general << '\n' << file_options;
@@ -398,6 +471,9 @@ void print_register_config(const RegisterOptions& options, std::ostream& out) {
   choices.format = kFormats.name(o.clouds.format);
   choices.colour = kColours.name(o.clouds.colour);
   choices.voxel = shortest_digits(o.clouds.voxel_m);
+  choices.accept_residual = shortest_digits(o.report.accept.residual_m);
+  choices.accept_overlap = shortest_digits(o.report.accept.overlap);
+  choices.accept_sigma = shortest_digits(o.report.accept.sigma_m);
   // The defaults of a description made from the effective values are the effective values.
   const po::options_description description = configurable(o, choices);
   po::variables_map map;

@@ -11,6 +11,7 @@
 #include "command.hpp"
 #include "tcm_icp/io/output_options.hpp"
 #include "tcm_icp/pipeline/pipeline_options.hpp"
+#include "tcm_icp/pipeline/report_options.hpp"
 
 namespace tcm_icp::app {
 
@@ -42,6 +43,7 @@ enum class Method { kTcm, kIcp, kFeatures };
 struct RegisterOptions : ScanSetOptions {
   OutputOptions clouds;
   SurveyOptions survey;
+  ReportOptions report;
   Method method = Method::kTcm;
   std::string out;
   bool force = false;

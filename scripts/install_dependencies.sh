@@ -7,7 +7,7 @@ usage() {
   cat <<'TEXT'
 Usage: install_dependencies.sh [--tests] [--checks] [--crs] [--conventional] [--outside] [--paper] [--benchmarks]
                                [--comparison] [--python] [--packages] [--site]
-  --tests       also what the tests need (GoogleTest; for the Python module pybind11, NumPy)
+  --tests       also what the tests need (GoogleTest; for the Python module pybind11, NumPy; Chromium, to look at a report)
   --checks      also what the format and script checks and scripts/fuzz.sh need (clang-format, shellcheck, clang)
   --crs         also what the text of EPSG codes in LAS and E57 needs (PROJ)
   --outside     also what scripts/check_formats_outside.py opens files with (CloudCompare, PCL's tools, Open3D for Python)
@@ -25,10 +25,10 @@ TEXT
 
 # GMP, MPFR and Boost's headers come with libcgal-dev.
 packages=(g++ cmake ninja-build ccache libcgal-dev libeigen3-dev libfftw3-dev libglpk-dev libboost-program-options-dev
-          libtbb-dev nlohmann-json3-dev libpugixml-dev zlib1g-dev)
+          libtbb-dev nlohmann-json3-dev libpugixml-dev zlib1g-dev libjs-three)
 while (($# > 0)); do
   case $1 in
-    --tests) packages+=(libgtest-dev pybind11-dev python3-dev python3-numpy) ;;
+    --tests) packages+=(libgtest-dev pybind11-dev python3-dev python3-numpy chromium python3-websocket) ;;
     --checks) packages+=(clang-format shellcheck clang libclang-rt-14-dev) ;;
     --conventional) packages+=(libpcl-dev) ;;
     --outside) packages+=(cloudcompare pcl-tools python3-numpy python3-open3d) ;;

@@ -16,6 +16,7 @@ complete -c tcm-icp -n __fish_use_subcommand -f -a register -d 'put scans into o
 complete -c tcm-icp -n __fish_use_subcommand -f -a evaluate -d 'errors of poses against ground truth'
 complete -c tcm-icp -n __fish_use_subcommand -f -a degrade -d 'copies of scans with defects'
 complete -c tcm-icp -n __fish_use_subcommand -f -a inspect -d 'what is known of scans before they are registered'
+complete -c tcm-icp -n __fish_use_subcommand -f -a render -d 'picture of a merged cloud'
 complete -c tcm-icp -n __fish_use_subcommand -f -a simulate -d 'LiDAR scans of a made-up scene'
 complete -c tcm-icp -n 'not __fish_use_subcommand; and string match -q -- "-*" (commandline -ct)' -a '(__tcm_icp_options)'
 complete -c tcm-icp -n '__tcm_icp_value method' -f -a 'tcm icp features'

@@ -25,7 +25,7 @@ TEST_F(ReportHtmlFile, NamesEveryScanWhateverItIsCalled) {
   EXPECT_EQ(testing::markup_error(page()), "");
   EXPECT_TRUE(page_has("Gr\u00FC\u00DFe &amp; &lt;script&gt;.ply"));
   EXPECT_TRUE(page_has("\u70B9 &#39;&quot;1&quot;.ply"));
-  EXPECT_FALSE(page_has("<script"));
+  EXPECT_FALSE(page_has("<script>.ply"));
   EXPECT_TRUE(page_has("All 2 scans are registered."));
 }
 
@@ -44,6 +44,50 @@ TEST_F(ReportHtmlFile, SaysThatThePaperVerifiesNothing) {
   ASSERT_EQ(register_as("a.ply", "b.ply", {"--profile", "paper"}).exit_code, 0);
   EXPECT_EQ(testing::markup_error(page()), "");
   EXPECT_TRUE(page_has("none of them verified"));
+}
+
+TEST_F(ReportHtmlFile, HoldsScansAndLinksAgainstTheLimits) {
+  ASSERT_EQ(
+      register_as("a.ply", "b.ply", {"--accept-residual", "10m", "--accept-overlap", "1%", "--project", "A & <B>"})
+          .exit_code,
+      0);
+  EXPECT_EQ(testing::markup_error(page()), "");
+  EXPECT_TRUE(page_has("<h1>A &amp; &lt;B&gt;</h1>"));
+  EXPECT_TRUE(page_has("Within the limits"));
+  EXPECT_EQ(read_json(folder() / "result/report.json")["acceptance"]["passed"], true);
+  const RunResult strict =
+      run(Words{"register", "a.ply", "b.ply", "--out", "strict", "--accept-residual", "1um"} + kSmall);
+  EXPECT_EQ(strict.exit_code, 0) << "limits are for the report; the scans are registered all the same";
+  const auto json = read_json(folder() / "strict/report.json");
+  EXPECT_EQ(json["acceptance"]["passed"], false);
+  EXPECT_EQ(json["acceptance"]["failed_scans"], 2);
+  EXPECT_EQ(json["links"][0]["acceptance"]["passed"], false);
+  EXPECT_GT(json["links"][0]["residuals"]["rms_m"], 1e-6) << "by which it failed";
+  EXPECT_NE(read_text(folder() / "strict/report.html").find("Outside the limits"), std::string::npos);
+}
+
+TEST_F(ReportHtmlFile, RefusesLimitsWithoutSense) {
+  for (const Words& wrong :
+       {Words{"--accept-residual", "6kg"}, Words{"--accept-overlap", "130%"}, Words{"--accept-sigma", "-1mm"}}) {
+    const RunResult result = run(Words{"register", "a.ply", "b.ply", "--out", "result"} + wrong);
+    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_NE(result.err.find(wrong[0] + " '" + wrong[1] + "': give"), std::string::npos) << result.err;
+  }
+}
+
+TEST_F(ReportHtmlFile, HasPicturesThatAreTheSameEachTime) {
+  ASSERT_EQ(register_as("a.ply", "b.ply").exit_code, 0);
+  const std::string preview = read_text(folder() / "result/preview.png");
+  EXPECT_EQ(preview.substr(1, 3), "PNG");
+  EXPECT_GT(preview.size(), 10000U) << "not blank";
+  for (const char* const name : {"one.png", "two.png"}) {
+    const RunResult drawn = run({"render", "result", "--out", name, "--size", "300x200"});
+    ASSERT_EQ(drawn.exit_code, 0) << drawn.err;
+  }
+  EXPECT_EQ(read_text(folder() / "one.png"), read_text(folder() / "two.png"));
+  EXPECT_EQ(run({"render", "result", "--out", "one.png"}).exit_code, 4) << "it is there already";
+  EXPECT_EQ(run({"render", "nothing", "--out", "three.png"}).exit_code, 2);
+  EXPECT_EQ(run({"render", "result", "--out", "three.png", "--size", "wide"}).exit_code, 1);
 }
 
 // JSON and HTML are UTF-8; the name of a file need not be.

@@ -5,6 +5,7 @@
 #include <limits>
 #include <regex>
 
+#include "report/page_texts.hpp"
 #include "support/markup.hpp"
 
 namespace tcm_icp {
@@ -68,14 +69,26 @@ TEST(ReportHtml, IsWellFormedWhateverTheFilesAreCalled) {
   const std::string page = report_html(report_of(three_of_four()));
   EXPECT_EQ(testing::markup_error(page), "");
   for (const auto& name : kEscaped) EXPECT_TRUE(has(page, name)) << name;
-  EXPECT_FALSE(has(page, "<script"));
+  EXPECT_FALSE(has(page, "<script")) << "there are no points to look at";
   EXPECT_TRUE(has(page, "tcm-icp register &lt;&amp;&gt;"));
   EXPECT_TRUE(has(page, "2026-01-02 03:04:05+01:00"));
 }
 
 TEST(ReportHtml, LoadsNothing) {
   const std::string page = report_html(report_of(three_of_four()));
-  EXPECT_FALSE(std::regex_search(page, std::regex("src=|href=|url\\(|@import|onload", std::regex::icase)));
+  EXPECT_FALSE(std::regex_search(page, std::regex("(src|href)=\"(?!data:)|url\\(|@import|onload", std::regex::icase)));
+}
+
+TEST(ReportHtml, ShowsPointsAndNoNameBecomesMarkupInItsScripts) {
+  const PipelineResult result = three_of_four();
+  const Scene scene = make_scene(result, {{{1, 2, 3}}, {{4, 5, 6}, {7, 8, 9}}, {}, {}}, 1);
+  const std::string page = report_html(report_of(result), scene);
+  EXPECT_EQ(testing::markup_error(page), "");
+  EXPECT_TRUE(has(page, "id=\"view\""));
+  EXPECT_TRUE(has(page, "src=\"data:image/png;base64,")) << "for browsers without WebGL";
+  EXPECT_FALSE(has(page, "<script>alert"));
+  EXPECT_TRUE(has(page, "default-src 'none'")) << "browsers refuse to load anything";
+  EXPECT_EQ(has(page, "id=\"view-data\""), !html::three_script().empty());
 }
 
 TEST(ReportHtml, ShowsNoNaNAndNoInfinity) {

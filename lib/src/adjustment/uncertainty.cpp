@@ -3,6 +3,11 @@
 #include "tcm_icp/core/parallel.hpp"
 
 namespace tcm_icp {
+namespace {
+
+constexpr double kContactInVoxels = 12;  // the edge of what both scans have to have points in: a few dozen of them
+
+}  // namespace
 
 void measure_uncertainty(const std::vector<PreparedScan>& scans, const ScanPairs& pairs, std::size_t reference,
                          const Resolutions& resolutions, const std::vector<Eigen::Isometry3d>& T_reference_scan,
@@ -14,7 +19,9 @@ void measure_uncertainty(const std::vector<PreparedScan>& scans, const ScanPairs
   uncertainty = estimate_uncertainty(scan_frames(scans, T_reference_scan), reference, matches, options);
   parallel_for(num_threads, pairs.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
-      links[k].strength = link_strength({matches[2 * k], matches[2 * k + 1]}, uncertainty.noise_m, uncertainty.block_m);
+      const std::vector<JointLink> both{matches[2 * k], matches[2 * k + 1]};
+      links[k].strength = link_strength(both, uncertainty.noise_m, uncertainty.block_m);
+      links[k].residuals = link_residuals(both, T_reference_scan, kContactInVoxels * resolutions.fine_m);
     }
   });
 }

@@ -7,6 +7,7 @@
 #include "links/link_likelihood.hpp"
 
 namespace tcm_icp {
+
 LinkRecord judge_link(std::size_t a, std::size_t b, const LinkMeasurements& m, const SetReference& set) {
   LinkRecord out;
   out.a = a;
@@ -18,8 +19,9 @@ LinkRecord judge_link(std::size_t a, std::size_t b, const LinkMeasurements& m, c
                 : out.probability < kLinkRejected ? "rejected"
                                                   : "doubtful";
   out.reason = percent(m.evidence.overlap) + " overlap, " + percent(m.evidence.inlier_share) +
-               " of that agrees within the noise; " + percent(m.evidence.left_after_slide[0]) +
-               " of the agreement is left when it slides along its weakest direction";
+               " of that agrees within the noise; moved by " + figure(m.evidence.slide_m, 2) +
+               " m in its weakest direction, " + percent(m.evidence.left_after_slide[0]) +
+               " of the agreement would be left";
   if (m.free_space.tells()) {
     out.reason += "; " + percent(m.free_space.violation_share()) + " is seen through walls";
   }

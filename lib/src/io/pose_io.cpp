@@ -42,7 +42,8 @@ std::string json_matrix(const Eigen::Isometry3d& T, const std::string& file) {
 
 std::string json_scan(const ScanPose& scan) {
   const bool placed = scan.status != ScanStatus::kUnregistered;
-  std::string text = "  {\"file\": " + json_string(scan.file) + ", \"status\": " + json_string(std::string(to_string(scan.status))) +
+  std::string text = "  {\"file\": " + json_string(scan.file) +
+                     ", \"status\": " + json_string(std::string(to_string(scan.status))) +
                      ",\n   \"pose\": " + (placed ? json_matrix(scan.T_reference_scan, scan.file) : "null") + ",\n";
   if (scan.pose_in_component) {
     text += "   \"pose_in_component\": " + json_matrix(*scan.pose_in_component, scan.file) + ",\n";

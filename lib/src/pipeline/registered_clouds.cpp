@@ -34,8 +34,8 @@ void select(const PointBlock& block, std::size_t stride, const std::vector<char>
 class CloudOutput {
  public:
   CloudOutput(const fs::path& folder, std::span<const ScanInput> inputs, const PipelineResult& result,
-              const OutputOptions& options, const RunContext& context)
-      : folder_(folder), inputs_(inputs), result_(result), options_(options), context_(context) {
+              const OutputOptions& options, const RunContext& context, const PointWatcher& watcher)
+      : folder_(folder), inputs_(inputs), result_(result), options_(options), context_(context), watcher_(watcher) {
     for (const auto& input : inputs_) attributes_.push_back(ScanReader(input).attributes());
     cloud_.format = options.format;
     cloud_.colour = options.colour;
@@ -176,6 +176,7 @@ class CloudOutput {
       std::optional<RegisteredCloudWriter> own;
       if (options_.each && part == 0) own.emplace(open_scan(i));
       stream(i, ReadAttributes::kYes, [&](const PointBlock& block) {
+        if (watcher_ && part == 0) watcher_(i, block.points);
         if (own) own->write(i, block, attributes_[i], T);
         if (!thinner) return merged.write(i, block, attributes_[i], T);
         keep.resize(block.size());
@@ -239,6 +240,7 @@ class CloudOutput {
   const PipelineResult& result_;
   const OutputOptions& options_;
   const RunContext& context_;
+  const PointWatcher& watcher_;
   std::vector<std::vector<Attribute>> attributes_;
   RegisteredCloudOptions cloud_;
   std::vector<Eigen::AlignedBox3d> boxes_;  ///< of each registered scan, where the format asks for it
@@ -255,8 +257,9 @@ void OutputOptions::validate() const {
 }
 
 void write_registered_clouds(const fs::path& folder, std::span<const ScanInput> inputs, const PipelineResult& result,
-                             const OutputOptions& options, const RunContext& context, std::uint64_t most_voxels) {
-  CloudOutput(folder, inputs, result, options, context).write(most_voxels);
+                             const OutputOptions& options, const RunContext& context, std::uint64_t most_voxels,
+                             const PointWatcher& watcher) {
+  CloudOutput(folder, inputs, result, options, context, watcher).write(most_voxels);
 }
 
 }  // namespace tcm_icp

@@ -1,7 +1,9 @@
 #pragma once
 // The clouds of a result: the merged one, and each scan by itself.
 
+#include <Eigen/Core>
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -15,12 +17,15 @@ namespace tcm_icp {
 /// Voxels of --voxel that are remembered at once; where there are more, the scans are read several times.
 constexpr std::uint64_t kMostVoxels = std::uint64_t{1} << 24U;
 
+/// Sees the raw points of registered scans as they are written, outliers left out: number of the scan, points [m].
+using PointWatcher = std::function<void(std::size_t scan, std::span<const Eigen::Vector3d> points)>;
+
 /// Writes registered.EXT and, where asked for, scans/NAME.EXT into `folder`. The raw points stream by: once, once more
 /// before for formats that must know how far they reach, and for --voxel once for each `most_voxels` voxels.
 /// @throws InputError, OutputError, Cancelled
 void write_registered_clouds(const std::filesystem::path& folder, std::span<const ScanInput> inputs,
                              const PipelineResult& result, const OutputOptions& options, const RunContext& context,
-                             std::uint64_t most_voxels = kMostVoxels);
+                             std::uint64_t most_voxels = kMostVoxels, const PointWatcher& watcher = {});
 
 /// The same of scans in files.
 inline void write_registered_clouds(const std::filesystem::path& folder,

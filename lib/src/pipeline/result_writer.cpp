@@ -1,14 +1,25 @@
 #include "tcm_icp/pipeline/result_writer.hpp"
 
+#include <algorithm>
+#include <map>
+
+#include "io/sha256.hpp"
 #include "io/text_file.hpp"
 #include "pipeline/pose_graph_edges.hpp"
 #include "pipeline/registered_clouds.hpp"
 #include "pipeline/stage_clock.hpp"
+#include "report/cloud_picture.hpp"
 #include "report/report_html.hpp"
+#include "report/scene.hpp"
+#include "report/scene_sample.hpp"
+#include "report/section_cut.hpp"
+#include "tcm_icp/core/error.hpp"
+#include "tcm_icp/core/parallel.hpp"
 #include "tcm_icp/io/output_folder.hpp"
 #include "tcm_icp/io/pose_export.hpp"
 #include "tcm_icp/io/pose_io.hpp"
 #include "tcm_icp/io/registered_cloud_writer.hpp"
+#include "tcm_icp/io/scan_path.hpp"
 
 namespace tcm_icp {
 namespace {
@@ -25,6 +36,44 @@ void add_options(const OutputOptions& clouds, Json& to) {
   to["colour"] = clouds.colour == CloudColour::kKeep ? "keep" : "scan";
 }
 
+// Of the file each scan comes from; several scans may be in one. Empty for scans that are in no file.
+std::vector<std::string> check_sums(std::span<const ScanInput> inputs, int num_threads) {
+  const auto file_of = [](const ScanInput& input) { return parse_scan_path(input.path).file; };
+  std::map<fs::path, std::string> sums;
+  for (const auto& input : inputs) {
+    if (input.is_file()) sums[file_of(input)];
+  }
+  std::vector<std::map<fs::path, std::string>::iterator> files;
+  for (auto file = sums.begin(); file != sums.end(); ++file) files.push_back(file);
+  parallel_for(num_threads, files.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) files[k]->second = sha256_of_file(files[k]->first);
+  });
+  std::vector<std::string> out;
+  for (const auto& input : inputs) out.push_back(input.is_file() ? sums.at(file_of(input)) : "");
+  return out;
+}
+
+SceneSampler scene_sampler(const PipelineResult& result, std::size_t wanted) {
+  std::vector<std::uint64_t> num_points;
+  for (std::size_t i = 0; i < result.scans.size(); ++i) {
+    const bool is_seen = result.poses[i].status != ScanStatus::kUnregistered;
+    num_points.push_back(is_seen ? result.scans[i].num_points : 0);
+  }
+  return {num_points, wanted};
+}
+
+std::vector<double> view_cells(const PipelineResult& result) {
+  constexpr double kCellsByExtent = 60;  // a scan covers some ten thousand of them
+  std::vector<double> cells_m;
+  for (const auto& scan : result.scans) cells_m.push_back(std::max(1e-9, scan.extent_m / kCellsByExtent));
+  return cells_m;
+}
+
+Image preview(const Scene& scene) {
+  constexpr int kWidth = 1600, kHeight = 800;
+  return draw_preview(picture_points(scene), scene.box, kWidth, kHeight);
+}
+
 }  // namespace
 
 void check_output_folder(const fs::path& folder, bool overwrite) {
@@ -34,10 +83,19 @@ void check_output_folder(const fs::path& folder, bool overwrite) {
 void write_result(const fs::path& folder, bool overwrite, std::span<const ScanInput> inputs, PipelineResult& result,
                   const PipelineOptions& options, const OutputOptions& clouds, const RunContext& context,
                   const RunDescription& description) {
+  description.report.accept.validate();
   OutputFolder output(folder, overwrite, kMarker);
   StageClock clock(result.stages);
   clock.begin("write");
-  write_registered_clouds(output.work(), inputs, result, clouds, context);
+  SceneSampler sampler = scene_sampler(result, description.report.view_points);
+  std::vector<SectionCut> sections = choose_sections(result);
+  SectionCutter cutter(sections, result);
+  write_registered_clouds(output.work(), inputs, result, clouds, context, kMostVoxels,
+                          [&](std::size_t i, std::span<const Eigen::Vector3d> points) {
+                            sampler.add(i, points, result.scans[i].origin);
+                            cutter.add(i, points);
+                          });
+  const Scene scene = make_scene(result, sampler.take(view_cells(result), context.num_threads), context.num_threads);
   write_pose_file(output.work() / "poses.json",
                   {result.scans[result.reference].file, result.poses, result.survey.defined_by,
                    result.survey.has_frame ? result.survey.crs : ""});
@@ -50,11 +108,16 @@ void write_result(const fs::path& folder, bool overwrite, std::span<const ScanIn
   }
   fs::create_directory(output.work() / "poses");
   write_pose_exports(output.work() / "poses", result.poses, pose_graph_edges(result));
+  const std::vector<std::string> sums = check_sums(inputs, context.num_threads);
   clock.end();
   Json report = report_object(result, options, context, description);
+  for (std::size_t i = 0; i < sums.size(); ++i) {
+    if (!sums[i].empty()) report["scans"][i]["sha256"] = sums[i];
+  }
   add_options(clouds, report["options"]);
   write_text_file(output.work() / "report.json", json_text(report));
-  write_text_file(output.work() / "report.html", report_html(report));
+  write_text_file(output.work() / "report.html", report_html(report, scene, sections));
+  if (scene.num_points() > 0) write_text_file(output.work() / "preview.png", png(preview(scene)));
   output.commit();
 }
 

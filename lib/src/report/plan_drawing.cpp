@@ -63,10 +63,11 @@ std::string discs(const PlanGroup& group, const Json& report) {
     const auto& p = group.layout.at[k];
     const auto c = scan_colour(group.scans[k]);
     const bool reference = scan.at("status") == "reference";
-    cover += print(
-        "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"%.1f\" fill=\"#%02x%02x%02x\" stroke=\"#%02x%02x%02x\" "
-        "class=\"cover\"/>\n",
-        p.x(), p.y(), group.layout.scale * scan.at("extent_m").get<double>(), c[0], c[1], c[2], c[0], c[1], c[2]);
+    if (group.background.empty())
+      cover += print(
+          "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"%.1f\" fill=\"#%02x%02x%02x\" stroke=\"#%02x%02x%02x\" "
+          "class=\"cover\"/>\n",
+          p.x(), p.y(), group.layout.scale * scan.at("extent_m").get<double>(), c[0], c[1], c[2], c[0], c[1], c[2]);
     // By the brightness the eye sees (ITU-R BT.601), so that the number can be read.
     const bool dark = 0.299 * c[0] + 0.587 * c[1] + 0.114 * c[2] < 128;
     out += print(
@@ -96,7 +97,7 @@ std::string plan_drawing(const PlanGroup& group, const Json& report) {
                plan.height) +
          "<title>Top view of group " + std::to_string(group.component) + "</title>\n" +
          print("<rect width=\"%.0f\" height=\"%.0f\" fill=\"#fafbfc\"/>\n", plan.width, plan.height) +
-         discs(group, report) + scale_bar(plan) + "</svg>\n";
+         group.background + discs(group, report) + scale_bar(plan) + "</svg>\n";
 }
 
 }  // namespace tcm_icp::html

@@ -14,6 +14,7 @@ struct PlanGroup {
   int component = 0;
   std::vector<std::size_t> scans;  ///< numbers of those with a place
   PlanLayout layout;               ///< of these
+  std::string background;          ///< SVG behind them, or nothing
 };
 
 /// Discs with the scans' numbers and colours, what they cover, their links by verdict, and a scale.

@@ -55,8 +55,9 @@ PlanLayout lay_out_plan(const std::vector<Eigen::Vector2d>& middles, const std::
   plan.height = std::clamp(size.y() * plan.scale + 2 * kMargin, kMinHeight, kMaxHeight);
   plan.disc = disc_radius(middles.size());
   const Eigen::Vector2d centre(plan.width / 2, plan.height / 2);
+  if (!covered.isEmpty()) plan.centre_m = covered.center();
   for (const auto& m : middles) {
-    const Eigen::Vector2d p = plan.scale * (m - covered.center());
+    const Eigen::Vector2d p = plan.scale * (m - plan.centre_m);
     plan.at.emplace_back(centre.x() + p.x(), centre.y() - p.y());
   }
   for (int round = 0; round < kMaxRounds && move_apart(plan.at, 2 * plan.disc + kGap); ++round) plan.moved = true;

@@ -7,11 +7,12 @@
 namespace tcm_icp::html {
 
 struct PlanLayout {
-  double width = 0, height = 0;     ///< of the drawing, in its own units
-  double scale = 1;                 ///< drawing units a metre
-  double disc = 0;                  ///< radius of a scan's disc
-  std::vector<Eigen::Vector2d> at;  ///< of each scan, y downwards
-  bool moved = false;               ///< discs that would have covered one another were moved apart
+  double width = 0, height = 0;                        ///< of the drawing, in its own units
+  double scale = 1;                                    ///< drawing units a metre
+  Eigen::Vector2d centre_m = Eigen::Vector2d::Zero();  ///< what is in the middle of the drawing
+  double disc = 0;                                     ///< radius of a scan's disc
+  std::vector<Eigen::Vector2d> at;                     ///< of each scan, y downwards
+  bool moved = false;                                  ///< discs that would have covered one another were moved apart
 };
 
 /// North, y of the frame, is up. The drawing shows all middles, and around them as much of what the scans cover as

@@ -128,6 +128,14 @@ Json decision_json(const PipelineResult& result, std::size_t scan) {
   return j;
 }
 
+Json project_json(const ReportOptions& o) {
+  const auto told = [](const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); };
+  return {{"project", told(o.project)},
+          {"client", told(o.client)},
+          {"instrument", told(o.instrument)},
+          {"operator", told(o.surveyor)}};
+}
+
 // Where the scan's middle lies in the frame of its component; null where no pose tells.
 Json middle_json(const ScanPose& pose, const ScanSummary& scan) {
   const Eigen::Vector3d raw = scan.origin + scan.middle;
@@ -150,7 +158,8 @@ Json report_object(const PipelineResult& result, const PipelineOptions& options,
               {"coarse_voxel_m", result.coarse_voxel_m},
               {"fine_voxel_m", result.fine_voxel_m},
               {"set_log_odds", result.set_log_odds},
-              {"warnings", result.warnings}};
+              {"warnings", result.warnings},
+              {"project", project_json(description.report)}};
   const Eigen::Vector3d origin = result.local_origin();
   for (const auto& s : result.scans) report["scans"].push_back(to_json(s));
   for (std::size_t i = 0; i < result.poses.size(); ++i) {
@@ -158,6 +167,7 @@ Json report_object(const PipelineResult& result, const PipelineOptions& options,
     report["scans"][i]["verdict"] = result.poses[i].verdict;
     report["scans"][i]["reason"] = result.poses[i].reason;
     report["scans"][i]["component"] = result.poses[i].component;
+    report["scans"][i]["pose"] = pose_json(result, i);
     report["scans"][i]["middle_m"] = middle_json(result.poses[i], result.scans[i]);
     report["scans"][i]["evidence"] = result.evidence[i] ? to_json(*result.evidence[i]) : Json(nullptr);
     if (!result.measurements.empty()) {
@@ -188,6 +198,9 @@ Json report_object(const PipelineResult& result, const PipelineOptions& options,
                                {"free_space", to_json(l.free_space)}});
     if (l.strength) report["links"].back()["strength"] = to_json(*l.strength, origin);
   }
+  add_residuals(result, description.report.accept.residual_m, report);
+  add_acceptance(description.report.accept, !result.survey.has_frame, report);
+  report["misclosures"] = loops_json(result);
   report["hypotheses"] = Json::array();
   for (const auto& h : result.hypotheses) {
     report["hypotheses"].push_back({{"a", result.scans[h.a].file},

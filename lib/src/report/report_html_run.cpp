@@ -97,11 +97,19 @@ std::string stages_section(const Json& report) {
 std::string options_section(const Json& report) {
   std::vector<std::pair<std::string, std::string>> pairs{{"method", escaped(report.at("method").get<std::string>())}};
   for (const auto& [key, value] : report.at("options").items()) pairs.emplace_back(words(key), value_text(value));
+  Rows sums;
+  for (const auto& scan : report.at("scans")) {
+    if (scan.contains("sha256")) {
+      sums.push_back({scan_label(report, scan.at("file")),
+                      "<span class=\"sum\">" + escaped(scan.at("sha256").get<std::string>()) + "</span>"});
+    }
+  }
   const Json& initial = report.at("initial_poses");
   pairs.emplace_back("initial poses", initial.is_null() ? "none" : file_name(initial));
   return section(
       "Command and options",
       "<code>" + escaped(report.at("command_line").get<std::string>()) + "</code>\n" + facts(pairs) +
+          (sums.empty() ? "" : table({{"input", "name"}, {"SHA-256 of its file", "wide"}}, sums)) +
           note("All figures of this page, and more, are in report.json beside it; docs/formats.md explains them."));
 }
 

@@ -64,8 +64,10 @@ std::string scans_section(const Json& report) {
   for (const auto& scan : scans) {
     const Json evidence = scan.at("evidence").is_null() ? Json::object() : scan.at("evidence");
     rows.push_back({std::to_string(rows.size()), swatch(rows.size()) + file_name(scan.at("file")), status(scan),
-                    percent(evidence.value("overlap", Json())), percent(evidence.value("inlier_share", Json())),
+                    passed(scan), percent(evidence.value("overlap", Json())),
+                    percent(evidence.value("inlier_share", Json())),
                     figure(evidence.value("median_residual_m", Json()), 1000),
+                    scan.value("residuals", Json()).is_null() ? "" : figure(scan.at("residuals").at("rms_m"), 1000),
                     sigma(report, scan, "sigma_position_m", 1000), sigma(report, scan, "sigma_rotation_deg", 1),
                     std::to_string(accepted_links(report, scan.at("file"))),
                     groups ? std::to_string(scan.at("component").get<int>()) : "", sentence(scan.at("reason"))});
@@ -75,9 +77,11 @@ std::string scans_section(const Json& report) {
       table({{"no.", "number"},
              {"file", "name"},
              {"status,<br/>verdict", "text"},
+             {"limits", "limits"},
              {"overlap", "number"},
              {"within<br/>noise", "number"},
              {"residual<br/>[mm]", "number"},
+             {"RMS<br/>[mm]", "number"},
              {"1\u03C3 position<br/>[mm]", "number"},
              {"1\u03C3 rotation<br/>[\u00B0]", "number"},
              {"links", "number"},
@@ -88,7 +92,8 @@ std::string scans_section(const Json& report) {
                "these have none of their own. "
                "Overlap: share of the scan\u2019s points, kept out of every fit, that have a neighbour in other scans; "
                "within noise: share of those that lie on the neighbour\u2019s surface; residual: median distance to "
-               "it. 1\u03C3: standard deviation of the scan\u2019s middle and of its rotation against the reference "
+               "it; RMS: of all its links, as in the table of links. 1\u03C3: standard deviation of the scan\u2019s "
+               "middle and of its rotation against the reference "
                "scan, or in the survey frame, root of the sum over the axes. Links: accepted ones. Group 0 is the "
                "reference\u2019s; other groups have frames of their own."));
 }

@@ -74,24 +74,36 @@ std::string badge(std::string_view kind, std::string_view text) {
   return "<span class=\"badge " + std::string(kind) + "\">" + escaped(text) + "</span>";
 }
 
-std::string table(const std::vector<Column>& columns, const Rows& rows) {
+std::string length(const Json& metres) {
+  if (!metres.is_number()) return kDash;
+  const double m = metres.get<double>(), size = std::abs(m);
+  if (!std::isfinite(m)) return kDash;
+  const auto text = [](double value, double whole_from, const char* unit) {
+    return text_of(value, std::chars_format::fixed, std::abs(value) >= whole_from ? 0 : 1) + "\u00A0" + unit;
+  };
+  if (size >= 1) return text(m, 10, "m");
+  return size >= 0.1 ? text(100 * m, 10, "cm") : text(1000 * m, 10, "mm");
+}
+
+std::string table(const std::vector<Column>& columns, const Rows& rows, const std::vector<std::string>& attributes) {
   std::vector<std::size_t> shown;
   for (std::size_t k = 0; k < columns.size(); ++k) {
     if (std::any_of(rows.begin(), rows.end(), [k](const auto& row) { return !row[k].empty(); })) shown.push_back(k);
   }
-  std::string out = "<table>\n<thead><tr>";
+  std::string out = "<div class=\"scroll\"><table>\n<thead><tr>";
   const auto cell = [&](const std::string& element, std::size_t k, std::string_view content) {
     out += "<" + element + " class=\"" + std::string(columns[k].kind) + "\">" + std::string(content) + "</" + element +
            ">";
   };
   for (const std::size_t k : shown) cell("th", k, columns[k].title);
   out += "</tr></thead>\n<tbody>\n";
-  for (const auto& row : rows) {
-    out += "<tr>";
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    const auto& row = rows[r];
+    out += "<tr" + (r < attributes.size() ? attributes[r] : "") + ">";
     for (const std::size_t k : shown) cell("td", k, row[k]);
     out += "</tr>\n";
   }
-  return out + "</tbody>\n</table>\n";
+  return out + "</tbody>\n</table></div>\n";
 }
 
 std::string facts(const std::vector<std::pair<std::string, std::string>>& pairs) {

@@ -37,7 +37,12 @@ struct Column {
 using Rows = std::vector<std::vector<std::string>>;  ///< of cells that are HTML already
 
 /// Columns without any content are left out. The first line is repeated on each printed page.
-std::string table(const std::vector<Column>& columns, const Rows& rows);
+/// @param attributes  of the rows' elements, where there are any: " data-link=\"3\""
+std::string table(const std::vector<Column>& columns, const Rows& rows,
+                  const std::vector<std::string>& attributes = {});
+
+/// A length in the unit a person would say it in: "4.2 mm", "31 cm", "2.5 m"; a dash for null.
+std::string length(const Json& metres);
 
 /// Pairs of a name and a value, both HTML, in columns.
 std::string facts(const std::vector<std::pair<std::string, std::string>>& pairs);

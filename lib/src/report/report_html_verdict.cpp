@@ -58,6 +58,44 @@ std::string remarks(const Json& report) {
   return out;
 }
 
+std::string limits_in_words(const Json& limits) {
+  std::string out;
+  const auto add = [&](const std::string& text) { out += (out.empty() ? "" : ", ") + text; };
+  if (!limits.at("residual_m").is_null()) add("RMS residual at most " + length(limits.at("residual_m")));
+  if (!limits.at("overlap").is_null()) add("overlap at least " + percent(limits.at("overlap")));
+  if (!limits.at("sigma_m").is_null()) add("1\u03C3 of a position at most " + length(limits.at("sigma_m")));
+  return out;
+}
+
+std::string acceptance(const Json& report) {
+  if (!report.contains("acceptance")) {
+    return "<p class=\"note\">No limits were given, so it is not said whether the result is exact enough: "
+           "--accept-residual, "
+           "--accept-overlap and --accept-sigma of tcm-icp register do that.</p>\n";
+  }
+  const Json& limits = report.at("acceptance");
+  const std::string asked = limits_in_words(limits);
+  const auto n = report.at("scans").size();
+  if (limits.at("passed") == true) {
+    std::string out = "<p><b>Within the limits</b>: every scan keeps " + asked + ".</p>\n";
+    if (limits.at("failed_links") != 0) {
+      out += "<p>" + count(limits.at("failed_links")) + " of " + std::to_string(report.at("links").size()) +
+             " links by themselves do not; their scans are held by others.</p>\n";
+    }
+    return out;
+  }
+  std::string items;
+  for (const auto& scan : report.at("scans")) {
+    if (scan.at("acceptance").at("passed") == true || !registered(scan)) continue;
+    std::string why;
+    for (const auto& failure : scan.at("acceptance").at("failures"))
+      why += (why.empty() ? "" : "; ") + sentence(failure);
+    items += "<li>" + scan_label(report, scan.at("file")) + ": " + why + "</li>\n";
+  }
+  return "<p><b>Outside the limits</b>: " + count(limits.at("failed_scans")) + " of " + std::to_string(n) +
+         " scans do not keep " + asked + ".</p>\n" + (items.empty() ? "" : "<ul>\n" + items + "</ul>\n");
+}
+
 // The largest norm over the registered scans, NaN where none is known.
 double largest_sigma(const Json& report, const char* name) {
   double largest = std::nan("");
@@ -98,6 +136,19 @@ std::string key_figures(const Json& report) {
   if (!links.empty()) {
     pairs.push_back({"links accepted", std::to_string(accepted) + " of " + std::to_string(links.size())});
   }
+  const std::vector<std::size_t> order = links_worst_first(report);
+  if (!order.empty() && report.contains("residuals") && !report.at("residuals").is_null()) {
+    const Json& worst = links.at(order.front());
+    if (!worst.at("residuals").is_null()) {
+      pairs.push_back({"worst link", scan_label(report, worst.at("a")) + " \u2013 " +
+                                         scan_label(report, worst.at("b")) + ", RMS " +
+                                         length(worst.at("residuals").at("rms_m"))});
+    }
+    pairs.push_back({"RMS residual of all links", length(report.at("residuals").at("rms_m"))});
+    if (!report.at("residuals").at("share_within_limit").is_null()) {
+      pairs.push_back({"points within the limit", percent(report.at("residuals").at("share_within_limit"))});
+    }
+  }
   const double residual = worst_residual_mm(report);
   if (std::isfinite(residual)) pairs.push_back({"largest median residual of a scan", figure(residual) + " mm"});
   const double position = 1000 * largest_sigma(report, "sigma_position_m"),
@@ -118,11 +169,14 @@ std::string verdict_section(const Json& report) {
   const std::string of =
       all ? "All " + std::to_string(placed) : std::to_string(placed) + " of " + std::to_string(scans.size());
   const bool doubts = !verifies(report) || !report.at("adjustment").at("outlying_links").empty();
-  const std::string kind = !all ? "bad" : doubts ? "fair" : "good";
+  const bool passes = !report.contains("acceptance") || report.at("acceptance").at("passed") == true;
+  const std::string kind = !all || !passes ? "bad" : doubts ? "fair" : "good";
   const std::string line =
       of + (verifies(report) ? " scans are registered." : " scans have a pose, none of them verified.");
-  return "<section>\n<div class=\"verdict " + kind + "\">\n<p class=\"line\">" + line + "</p>\n" +
-         unregistered_list(report) + remarks(report) + "</div>\n" + key_figures(report) + "</section>\n";
+  return "<section>\n<div class=\"verdict " + kind + "\">\n<p class=\"line\">" + line + "</p>\n" + acceptance(report) +
+         unregistered_list(report) + remarks(report) + "</div>\n</section>\n";
 }
+
+std::string facts_section(const Json& report) { return "<section>\n" + key_figures(report) + "</section>\n"; }
 
 }  // namespace tcm_icp::html

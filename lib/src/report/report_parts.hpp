@@ -38,6 +38,16 @@ Json to_json(const Viewpoint& viewpoint);
 Json to_json(const LpFigures& lp);
 Json to_json(const CorrespondenceGraph& graph, std::size_t reference, const std::vector<ScanSummary>& scans);
 
+/// "residuals" of the run, of each scan and of each link. @param limit_m  what counts as within the limit; 0: none
+void add_residuals(const PipelineResult& result, double limit_m, Json& report);
+/// "acceptance" of the run, of each scan and of each link, where limits are given. After add_residuals().
+void add_acceptance(const AcceptanceLimits& limits, bool is_reference_frame, Json& report);
+
+/// Null where the scan has no pose in the common frame.
+Json pose_json(const PipelineResult& result, std::size_t scan);
+/// How well loops of three pairs close that were fitted each by itself; the worst are listed.
+Json loops_json(const PipelineResult& result);
+
 /// The joint adjustment and what limits its poses.
 Json adjustment_json(const PipelineResult& result);
 /// Null where no survey frame was asked for.

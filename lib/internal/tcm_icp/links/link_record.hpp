@@ -8,6 +8,7 @@
 
 #include "tcm_icp/coarse/pose_candidate.hpp"
 #include "tcm_icp/links/link_measurements.hpp"
+#include "tcm_icp/links/link_residuals.hpp"
 #include "tcm_icp/registration/link_strength.hpp"
 
 namespace tcm_icp {
@@ -20,6 +21,7 @@ struct LinkRecord {
   double probability = 0;  ///< that the pose is right, by the pair alone
   std::string verdict, reason;
   std::optional<LinkStrength> strength;  ///< in the reference's local frame; robust profile only
+  LinkResiduals residuals = {};          ///< at the resolution scans were adjusted with; robust profile only
 };
 
 /// A pose that a pair may have, found without a guess, and what became of it.

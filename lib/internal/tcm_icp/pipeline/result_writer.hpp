@@ -12,6 +12,7 @@
 #include "tcm_icp/io/scan_source.hpp"
 #include "tcm_icp/pipeline/pipeline_options.hpp"
 #include "tcm_icp/pipeline/pipeline_result.hpp"
+#include "tcm_icp/pipeline/report_options.hpp"
 
 namespace tcm_icp {
 
@@ -21,6 +22,7 @@ struct RunDescription {
   std::string command_line;
   std::string initial_poses;  ///< file of the initial guess; empty: none was given
   std::string started;        ///< date and time, ISO 8601; empty: not told
+  ReportOptions report = {};
 };
 
 /// The report as JSON text (docs/formats.md). Numbers that are not known are null; bytes that are not UTF-8, in names

@@ -1,0 +1,20 @@
+# cmake -DOUT=FILE.cpp -DHEADER=NAME -DNAMESPACE=NAME -DFUNCTION=NAME "-DINPUTS=A|B" -P EmbedText.cmake
+# Writes the texts of the inputs, one after the other, into a C++ file with a function that returns them.
+string(REPLACE "|" ";" inputs "${INPUTS}")
+set(pieces "")
+foreach(input IN LISTS inputs)
+  file(READ "${input}" text)
+  # Compilers bound the length of a literal: pieces of what all of them take are joined by the compiler.
+  string(LENGTH "${text}" length)
+  set(at 0)
+  while(at LESS length)
+    string(SUBSTRING "${text}" ${at} 15000 piece)
+    string(APPEND pieces "    R\"text(" "${piece}" ")text\"\n")
+    math(EXPR at "${at} + 15000")
+  endwhile()
+  string(APPEND pieces "    \"\\n\"\n")
+endforeach()
+if(pieces STREQUAL "")
+  set(pieces "    \"\"")
+endif()
+file(WRITE "${OUT}" "// Made by cmake/EmbedText.cmake.\n#include \"${HEADER}\"\n\nnamespace ${NAMESPACE} {\n\nstd::string_view ${FUNCTION}() {\n  static constexpr char kText[] =\n${pieces};\n  return {kText, sizeof kText - 1};\n}\n\n}  // namespace ${NAMESPACE}\n")

@@ -1,0 +1,107 @@
+// What would make the result firmer: in words, from the graph of links.
+
+#include <algorithm>
+
+#include "report/weak_spots.hpp"
+#include "report_html_parts.hpp"
+#include "report_html_text.hpp"
+
+namespace tcm_icp::html {
+namespace {
+
+std::string item(const std::string& text) { return "<li>" + text + "</li>\n"; }
+
+std::string scans_in_words(const Json& report, const std::vector<std::size_t>& scans) {
+  constexpr std::size_t kMost = 6;
+  std::string out;
+  for (std::size_t k = 0; k < std::min(kMost, scans.size()); ++k) {
+    out += (k > 0 ? ", " : "") + scan_label(report, report.at("scans").at(scans[k]).at("file"));
+  }
+  return out + (scans.size() > kMost ? " and " + std::to_string(scans.size() - kMost) + " more" : "");
+}
+
+std::vector<WeightedLink> held_by(const Json& report) {
+  std::vector<WeightedLink> links;
+  for (const auto& link : report.at("links")) {
+    const double overlap = link.at("verdict") == "rejected" ? 0 : link.at("evidence").at("overlap").get<double>();
+    links.push_back({scan_number(report, link.at("a")), scan_number(report, link.at("b")), overlap});
+  }
+  return links;
+}
+
+std::string advice(const Json& report, const WeakSpot& spot) {
+  const bool one = spot.scans.size() == 1;
+  std::string out =
+      (one ? "Scan " : "Scans ") + scans_in_words(report, spot.scans) + (one ? " hangs" : " hang") + " on ";
+  const Json& strongest = report.at("links").at(spot.links.front());
+  const std::string pair = scan_label(report, strongest.at("a")) + " and " + scan_label(report, strongest.at("b"));
+  if (spot.links.size() == 1) {
+    out += "one link of " + percent(strongest.at("evidence").at("overlap")) + " overlap, between " + pair;
+  } else {
+    out += std::to_string(spot.links.size()) + " links, the strongest of " +
+           percent(strongest.at("evidence").at("overlap")) + " overlap between " + pair;
+  }
+  return out + ": one more set-up between these two would hold " + (one ? "it." : "them.");
+}
+
+std::string advice_for_unregistered(const Json& report, const Json& scan) {
+  const Json* likeliest = nullptr;
+  for (const auto& h : report.at("hypotheses")) {
+    if (h.at("a") != scan.at("file") && h.at("b") != scan.at("file")) continue;
+    if (likeliest == nullptr || h.at("log_odds") > likeliest->at("log_odds")) likeliest = &h;
+  }
+  const std::string label = scan_label(report, scan.at("file"));
+  if (likeliest == nullptr) {
+    return label +
+           " shares nothing that was found with any other scan: scan again from between it and its neighbours, "
+           "30\u202F% overlap or more.";
+  }
+  const Json& other = likeliest->at("a") == scan.at("file") ? likeliest->at("b") : likeliest->at("a");
+  return label + " is not registered (" + sentence(scan.at("reason")) + "). Its likeliest link is with " +
+         scan_label(report, other) + ", " + percent(likeliest->at("evidence").at("overlap")) + " overlap, " +
+         odds(likeliest->at("log_odds").get<double>()) +
+         ": look at these two first. One more set-up between them would settle it.";
+}
+
+}  // namespace
+
+std::string help_section(const Json& report) {
+  if (!verifies(report)) return "";
+  constexpr std::size_t kMostSpots = 5;
+  constexpr double kFirm = 0.6;  // two links of 30 %, the least overlap that surveyors plan with
+  std::string items;
+  std::vector<std::size_t> registered;
+  for (std::size_t i = 0; i < report.at("scans").size(); ++i) {
+    const Json& scan = report.at("scans").at(i);
+    if (scan.at("status") == "unregistered") {
+      items += item(advice_for_unregistered(report, scan));
+    } else {
+      registered.push_back(i);
+    }
+  }
+  std::size_t num_weak = 0;
+  const std::vector<WeakSpot> spots = weak_spots(registered, held_by(report));
+  for (const WeakSpot& spot : spots) {
+    if (num_weak == kMostSpots || spot.links.empty() || spot.weight >= kFirm) break;
+    items += item(advice(report, spot));
+    ++num_weak;
+  }
+  if (num_weak == 0 && !spots.empty()) {
+    const WeakSpot& least = spots.front();
+    items += item("The net of registered scans has no weak place. What is held least, " +
+                  scans_in_words(report, least.scans) + ", has " + std::to_string(least.links.size()) +
+                  " links to the rest, whose overlaps add up to " + percent(Json(least.weight)) + ".");
+  }
+  if (report.contains("acceptance") && report.at("acceptance").at("passed") == false) {
+    items += item(
+        "Scans that fail the limits are named on top. Colour the view by distance to other scans: where walls are "
+        "red, scan again; where only leaves or edges are, the limit is narrower than the scene allows.");
+  }
+  if (items.empty()) return "";
+  return section("What would help",
+                 "<ul>\n" + items + "</ul>\n" +
+                     note("The weakest places of the net: scans, or groups of scans, that the fewest "
+                          "and slightest links hold to the others."));
+}
+
+}  // namespace tcm_icp::html
