@@ -117,6 +117,29 @@ TEST_F(ConfigurationTest, HypothesesThatAgreeOutvoteStrongerOnesThatDoNot) {
   EXPECT_LE(world.worst_error_m(components[0]), kRounding);
 }
 
+// Two groups, each sure of itself. What joins them puts them wrong, and fits of other pairs from there say so: growing
+// hangs a group by its first scan, and would keep it for what its own pairs are worth.
+TEST_F(ConfigurationTest, AGroupThatPairsSpeakAgainstIsAComponentOfItsOwn) {
+  HypothesisWorld world(6, rng_);
+  for (const auto& [a, b] : {std::pair(0u, 1u), std::pair(0u, 2u), std::pair(1u, 2u), std::pair(3u, 4u),
+                             std::pair(3u, 5u), std::pair(4u, 5u)}) {
+    world.add(a, b, {world.hypothesis(a, b, 6)});
+  }
+  const Isometry3d off(Eigen::Translation3d(0, 20, 0));
+  world.add(2, 3, {world.hypothesis(2, 3, 2, off)});
+  EXPECT_EQ(likeliest_components(world.graph())[0].size(), 6u) << "nothing speaks against it";
+  for (const auto& [a, b] : {std::pair(0u, 3u), std::pair(0u, 4u), std::pair(1u, 4u), std::pair(2u, 5u)}) {
+    const Isometry3d T_3_b = b == 3 ? Isometry3d::Identity() : world.T_target_source(3, b);
+    world.add(a, b, {{world.T_target_source(a, 3) * off * T_3_b, -9, true}});
+  }
+  const auto components = likeliest_components(world.graph());
+  ASSERT_EQ(components.size(), 2u);
+  for (const Component& component : components) {
+    EXPECT_EQ(component.size(), 3u);
+    EXPECT_LE(world.worst_error_m(component), kRounding);
+  }
+}
+
 TEST_F(ConfigurationTest, TheReferenceIsTheMemberWithTheMostSupport) {
   HypothesisWorld world(5, rng_);
   for (const std::size_t i : {0u, 1u, 2u, 4u}) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <numbers>
+#include <set>
 
 #include "inference/hypothesis_world.hpp"
 #include "support/matchers.hpp"
@@ -209,6 +210,23 @@ TEST_F(CutsTest, WhatNothingHoldsIsAllFrontier) {
 TEST_F(CutsTest, OneScanAloneHasNoCuts) {
   add(0, 1, 6);
   EXPECT_TRUE(weakest_cuts(world_.graph(), component_of_one(0, 6)).empty());
+}
+
+// Two pairs that one weak link joins, another component, and a scan in none.
+TEST_F(CutsTest, WhatNoWeakCutPartsIsOneGroup) {
+  add(0, 1, 8);
+  add(1, 2, 1);
+  add(2, 3, 8);
+  const std::vector<Component> components{world_.truth({0, 1, 2, 3}), world_.truth({4})};
+  std::vector<std::vector<Cut>> cuts;
+  for (const Component& component : components) cuts.push_back(weakest_cuts(world_.graph(), component));
+  const auto groups = clear_groups(components, cuts, 6, world_.num_scans());
+  ASSERT_EQ(groups.size(), 6u);
+  EXPECT_EQ(groups[0], groups[1]);
+  EXPECT_EQ(groups[2], groups[3]);
+  EXPECT_EQ(std::set<std::size_t>(groups.begin(), groups.end()).size(), 4u) << "5 is in no component, and alone";
+  const auto all_clear = clear_groups(components, cuts, 0.5, world_.num_scans());
+  for (const std::size_t i : {1u, 2u, 3u}) EXPECT_EQ(all_clear[i], all_clear[0]);
 }
 
 }  // namespace

@@ -57,6 +57,20 @@ TEST_F(HypothesisSetTest, AKnownPoseIsNotAddedAgain) {
   EXPECT_EQ(of(0, 2).size(), 1u) << "of another pair";
 }
 
+// Whichever was found first: else the order of searches would decide what a pair is worth.
+TEST_F(HypothesisSetTest, ASearchSaysMoreThanAFitFromWhereOthersLead) {
+  LinkHypothesis implied = aside(0, 1, 0), found = aside(0, 1, 0.1 * set_->same_m());
+  implied.candidate.method = CoarseMethod::kImplied;
+  found.candidate.method = CoarseMethod::kFeatures;
+  for (const auto& [first, second] : {std::pair(implied, found), std::pair(found, implied)}) {
+    HypothesisSet set = *set_;
+    set.add(0, 1, {first});
+    set.add(0, 1, {second});
+    ASSERT_EQ(set.pairs().at({0, 1}).size(), 1u);
+    EXPECT_EQ(set.pairs().at({0, 1})[0].candidate.method, CoarseMethod::kFeatures);
+  }
+}
+
 TEST_F(HypothesisSetTest, APairComparedInVainIsKnown) {
   set_->add(1, 3, {});
   ASSERT_EQ(set_->pairs().count({1, 3}), 1u);

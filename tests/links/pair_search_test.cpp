@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <string>
 
 #include "pipeline/prepared_scene.hpp"
@@ -47,12 +48,18 @@ std::vector<Pair> tried(const HypothesisSet& set) {
 }
 
 std::vector<bool> all(std::size_t num_scans) { return std::vector<bool>(num_scans, true); }
+// Groups of one scan each.
+std::vector<std::size_t> apart(std::size_t num_scans) {
+  std::vector<std::size_t> groups(num_scans);
+  std::iota(groups.begin(), groups.end(), std::size_t{0});
+  return groups;
+}
 
 TEST(PairSearch, FindsThePosesOfASetInUnknownFrames) {
   const PreparedScene s = yard(3, 1);
   PairSearch search(s.scans, kOptions, kContext);
   HypothesisSet set = no_hypotheses(s);
-  ASSERT_TRUE(search.extend(all(3), set));
+  ASSERT_TRUE(search.extend(all(3), apart(3), set));
   EXPECT_EQ(tried(set), (std::vector<Pair>{{0, 1}, {0, 2}, {1, 2}}));
   for (const auto& [pair, hypotheses] : set.pairs()) {
     ASSERT_FALSE(hypotheses.empty());
@@ -75,16 +82,16 @@ TEST(PairSearch, AsksLocalFeaturesNextThenSlidesAndThenNothing) {
   const auto count = [](const std::vector<CoarseMethod>& of, CoarseMethod method) {
     return std::count(of.begin(), of.end(), method);
   };
-  ASSERT_TRUE(search.extend(all(2), set));
+  ASSERT_TRUE(search.extend(all(2), apart(2), set));
   const auto by_maps = methods();
   EXPECT_EQ(count(by_maps, CoarseMethod::kHeightMap), static_cast<std::ptrdiff_t>(by_maps.size()));
-  ASSERT_TRUE(search.extend(all(2), set));
+  ASSERT_TRUE(search.extend(all(2), apart(2), set));
   const auto by_features = methods();
   EXPECT_EQ(count(by_features, CoarseMethod::kHeightMap), static_cast<std::ptrdiff_t>(by_maps.size()));
   EXPECT_EQ(count(by_features, CoarseMethod::kSlide), 0);
-  EXPECT_TRUE(search.extend(all(2), set)) << "slides";
+  EXPECT_TRUE(search.extend(all(2), apart(2), set)) << "slides";
   EXPECT_EQ(count(methods(), CoarseMethod::kFeatures), count(by_features, CoarseMethod::kFeatures));
-  EXPECT_FALSE(search.extend(all(2), set)) << "no pair is tried twice";
+  EXPECT_FALSE(search.extend(all(2), apart(2), set)) << "no pair is tried twice";
 }
 
 // Of scans 0 to 2 as they were about to be put; what is known of 3 is nothing, and 4 was put where it meets no other.
@@ -111,7 +118,7 @@ TEST(PairSearch, InitialPosesAreFittedWhereTheyOverlap) {
               tolerance);
     EXPECT_LE(error_m(s, pair, hypotheses.front()), tolerance);
   }
-  ASSERT_TRUE(search.extend(all(5), set)) << "what was guessed is searched, too";
+  ASSERT_TRUE(search.extend(all(5), apart(5), set)) << "what was guessed is searched, too";
   EXPECT_EQ(tried(set).size(), 10u);
 }
 
@@ -139,11 +146,20 @@ TEST(PairSearch, TriesThePairsOfWantedScansAlone) {
   const PreparedScene s = testing::prepared_scene({.num_scans = 4, .points_per_scan = 2000}, rng);
   PairSearch search(s.scans, kOptions, kContext);
   HypothesisSet set = no_hypotheses(s);
-  EXPECT_FALSE(search.extend(std::vector<bool>(4, false), set));
-  ASSERT_TRUE(search.extend({false, false, true, false}, set));
+  EXPECT_FALSE(search.extend(std::vector<bool>(4, false), apart(4), set));
+  ASSERT_TRUE(search.extend({false, false, true, false}, apart(4), set));
   EXPECT_EQ(tried(set), (std::vector<Pair>{{0, 2}, {1, 2}, {2, 3}}));
-  ASSERT_TRUE(search.extend({false, true, false, false}, set));
+  ASSERT_TRUE(search.extend({false, true, false, false}, apart(4), set));
   EXPECT_EQ(tried(set), (std::vector<Pair>{{0, 1}, {0, 2}, {1, 2}, {1, 3}, {2, 3}}));
+}
+
+TEST(PairSearch, PairsWithinAGroupAreNotTried) {
+  Rng rng = make_stream(3, "pair_search_test");
+  const PreparedScene s = testing::prepared_scene({.num_scans = 4, .points_per_scan = 2000}, rng);
+  PairSearch search(s.scans, kOptions, kContext);
+  HypothesisSet set = no_hypotheses(s);
+  ASSERT_TRUE(search.extend(all(4), {7, 7, 1, 7}, set));
+  EXPECT_EQ(tried(set), (std::vector<Pair>{{0, 2}, {1, 2}, {2, 3}}));
 }
 
 TEST(PairSearch, LevelledScansAreTriedUprightOnly) {
@@ -169,7 +185,7 @@ TEST(PairSearch, LevelledScansAreTriedUprightOnly) {
   level.level = true;
   PairSearch search(upright.scans, level, kContext);
   HypothesisSet set = no_hypotheses(upright);
-  while (search.extend(all(2), set)) continue;
+  while (search.extend(all(2), apart(2), set)) continue;
   const auto& hypotheses = set.pairs().at({0, 1});
   ASSERT_FALSE(hypotheses.empty());
   EXPECT_LE(error_m(upright, {0, 1}, hypotheses.front()), 0.25 * upright.resolutions.coarse_m);
@@ -194,13 +210,13 @@ TEST(PairSearch, ManyScansAreTriedWithTheirLikeliestPartnersFirst) {
   std::vector<bool> wanted(kAll, false);
   wanted[3] = true;
   const auto pair_with = [](std::size_t b) { return Pair(std::min<std::size_t>(3, b), std::max<std::size_t>(3, b)); };
-  ASSERT_TRUE(search.extend(wanted, set));
+  ASSERT_TRUE(search.extend(wanted, apart(wanted.size()), set));
   EXPECT_LT(set.pairs().size(), kAll - 1);
   for (std::size_t b = 0; b < kEach; ++b) {
     if (b == 3) continue;
     EXPECT_EQ(set.pairs().count(pair_with(b)), 1u) << b;
   }
-  while (search.extend(wanted, set)) continue;
+  while (search.extend(wanted, apart(wanted.size()), set)) continue;
   EXPECT_EQ(set.pairs().size(), kAll - 1) << "one that is still wanted gets all others in the end";
 }
 
@@ -212,7 +228,7 @@ TEST(PairSearch, AStrangersPosesAreLessLikelyThanThoseOfScansOfOnePlace) {
   s.scans.push_back(prepare_scan(testing::sampled(rubble.scans[0], "2.ply"), s.resolutions, {}, 42));
   PairSearch search(s.scans, kOptions, kContext);
   HypothesisSet set = no_hypotheses(s);
-  while (search.extend(all(3), set)) continue;
+  while (search.extend(all(3), apart(3), set)) continue;
   ASSERT_LE(error_m(s, {0, 1}, set.pairs().at({0, 1}).front()), 0.25 * s.resolutions.coarse_m);
   EXPECT_GT(set.log_odds(0, 1), set.log_odds(0, 2) + 3);
   EXPECT_GT(set.log_odds(0, 1), set.log_odds(1, 2) + 3);
@@ -226,7 +242,7 @@ TEST(PairSearch, ThreadsDoNotChangeABit) {
     context.num_threads = num_threads;
     PairSearch search(s.scans, kOptions, context);
     HypothesisSet set = no_hypotheses(s);
-    while (search.extend(all(3), set)) continue;
+    while (search.extend(all(3), apart(3), set)) continue;
     return set.pairs();
   };
   const auto one = found_by(1), two = found_by(2);
@@ -250,7 +266,7 @@ TEST(PairSearch, StopsWhenAsked) {
     PairSearch search(s.scans, kOptions, context);
     HypothesisSet set = no_hypotheses(s);
     const auto search_all = [&] {
-      while (search.extend(all(2), set)) continue;
+      while (search.extend(all(2), apart(2), set)) continue;
     };
     EXPECT_THROW(search_all(), Cancelled) << stage;
   }

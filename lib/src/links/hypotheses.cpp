@@ -27,6 +27,8 @@ double second_best_ratio(const LinkHypothesis& h, const std::vector<LinkHypothes
   return own > 0 ? best / own : best > 0 ? std::numeric_limits<double>::infinity() : 0;
 }
 
+bool is_implied(const LinkHypothesis& h) { return h.candidate.method == CoarseMethod::kImplied; }
+
 }  // namespace
 
 HypothesisSet::HypothesisSet(double voxel_m, double noise_m, std::vector<PointMoments> moments)
@@ -38,10 +40,14 @@ void HypothesisSet::add(std::size_t a, std::size_t b, const std::vector<LinkHypo
   std::vector<LinkHypothesis>& known = pairs_[{a, b}];
   for (const LinkHypothesis& h : hypotheses) {
     // Half the distance at which poses are one to inference: fits to one optimum end nearer than that.
-    const bool is_known = std::any_of(known.begin(), known.end(), [&](const LinkHypothesis& k) {
+    const auto same = std::find_if(known.begin(), known.end(), [&](const LinkHypothesis& k) {
       return rms_displacement(k.T_a_b.inverse() * h.T_a_b, moments_[b]) < same_m() / 2;
     });
-    if (!is_known) known.push_back(h);
+    if (same == known.end()) {
+      known.push_back(h);
+    } else if (is_implied(*same) && !is_implied(h)) {
+      *same = h;  // a search that was told nothing says more than a fit from where others put it, whichever came first
+    }
   }
 }
 
@@ -76,7 +82,7 @@ bool HypothesisSet::learn_constant(const PairGraph& graph, const std::vector<Com
       if (!component.has(a) || !component.has(b)) continue;
       const double sure = 1 / (1 + std::exp(-lead_between(cuts, a, b)));
       for (const auto& h : hypotheses) {
-        if (h.candidate.method == CoarseMethod::kImplied) continue;  // agrees with poses right or wrong
+        if (is_implied(h)) continue;  // agrees with poses right or wrong
         const bool right = rms_displacement((T[a]->inverse() * *T[b]).inverse() * h.T_a_b, moments_[b]) < same_m();
         judged.push_back({h.log_odds - reference_.constant, right, sure});
       }
@@ -98,8 +104,7 @@ PairGraph HypothesisSet::graph(const std::vector<bool>& open, const InferenceOpt
   for (const auto& [pair, hypotheses] : pairs_) {
     if (!open[pair.first] || !open[pair.second]) continue;
     ComparedPair compared{pair.first, pair.second, {}};
-    for (const auto& h : hypotheses)
-      compared.hypotheses.push_back({h.T_a_b, h.log_odds, h.candidate.method == CoarseMethod::kImplied});
+    for (const auto& h : hypotheses) compared.hypotheses.push_back({h.T_a_b, h.log_odds, is_implied(h)});
     pairs.push_back(std::move(compared));
   }
   return {std::move(pairs), moments_, same_m(), options};
