@@ -23,7 +23,7 @@ _tcm_icp() {
     --lp.formulation) words="plane point entries squares" ;;
     --bin) words="kitti nuscenes" ;;
     --unit) words="m mm ft us-ft" ;;
-    --scene) words="town block street urban canopy interior plaza bays" ;;
+    --scene) words="town block street urban canopy interior plaza bays town-grid" ;;
     --sensor) words="terrestrial spinning aerial" ;;
     *) [[ $cur == -* ]] && words=$(_tcm_icp_options "${COMP_WORDS[0]}" "${COMP_WORDS[1]}") ;;
   esac

@@ -28,5 +28,5 @@ complete -c tcm-icp -n '__tcm_icp_value merge-order' -f -a 'tcm paper-tcm robust
 complete -c tcm-icp -n '__tcm_icp_value lp.formulation' -f -a 'plane point entries squares'
 complete -c tcm-icp -n '__tcm_icp_value bin' -f -a 'kitti nuscenes'
 complete -c tcm-icp -n '__tcm_icp_value unit' -f -a 'm mm ft us-ft'
-complete -c tcm-icp -n '__tcm_icp_value scene' -f -a 'town block street urban canopy interior plaza bays'
+complete -c tcm-icp -n '__tcm_icp_value scene' -f -a 'town block street urban canopy interior plaza bays town-grid'
 complete -c tcm-icp -n '__tcm_icp_value sensor' -f -a 'terrestrial spinning aerial'

@@ -7,8 +7,9 @@ namespace tcm_icp {
 namespace {
 
 constexpr double kLeastGain = 1e-9;  // rounding is no gain
-// Clearly different places whose poses are averaged: the mean of what agrees gains little over the best of it.
-constexpr std::size_t kPlacesAveraged = 3;
+// Poses whose neighbours are averaged, the best supported first: the mean of what agrees gains little over the best of
+// it. With 3 clearly different ones the likeliest of all assignments was missed in 13 of 200 small sets, with all in 8.
+constexpr std::size_t kPlacesAveraged = 8;
 
 }  // namespace
 
@@ -39,13 +40,8 @@ std::optional<Place> Places::best(const Component& component) const {
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(), [&](auto x, auto y) { return supports_[x] > supports_[y]; });
   std::optional<Place> best;
-  std::vector<std::size_t> averaged;
+  if (order.size() > kPlacesAveraged) order.resize(kPlacesAveraged);
   for (const std::size_t k : order) {
-    if (averaged.size() == kPlacesAveraged) break;
-    const bool is_near = std::any_of(averaged.begin(), averaged.end(),
-                                     [&](std::size_t i) { return graph_->same_pose(scan_, poses_[i], poses_[k]); });
-    if (is_near) continue;
-    averaged.push_back(k);
     const Eigen::Isometry3d mean = graph_->mean_pose(scan_, poses_[k], component);
     for (const Place& place : {Place{supports_[k], poses_[k]}, {graph_->support_of(scan_, mean, component), mean}}) {
       if (!best || place.support > best->support + kLeastGain) best = place;
