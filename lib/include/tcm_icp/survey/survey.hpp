@@ -34,7 +34,7 @@ struct PosePrior {
 
 /// A scan whose z axis is vertical by so much, as its compensator tells.
 struct ScanLevel {
-  std::string scan;
+  std::string scan;      ///< its name
   double sigma_rad = 0;  ///< about x and about y; 0: not known to be upright
 };
 
