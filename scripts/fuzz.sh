@@ -29,9 +29,12 @@ shift
 
 build=build/fuzz
 cmake --preset fuzz >/dev/null
-cmake --build --preset fuzz --parallel "$(nproc)" | tail -n 1
 rm -rf "$build/seeds"
 mkdir -p "$build/seeds" "$build/corpus" "$build/crashes" "$build/logs"
+if ! cmake --build --preset fuzz --parallel "$(nproc)" >"$build/logs/build.log" 2>&1; then
+  grep -v '^\[' "$build/logs/build.log" >&2
+  exit 1
+fi
 "$build/tests/fuzz/make_fuzz_seeds" "$build/seeds"
 
 mapfile -t targets <"$build/tests/fuzz/targets.txt"
