@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <span>
 #include <string>
+#include <utility>
 
 #include "correlation_peaks.hpp"
 #include "map_agreement.hpp"
@@ -29,6 +32,8 @@ constexpr double kDistinctShare = 0.1;  // of a typical scan's width
 // Of ways that both scans may be up: those looked at in full, and what their peaks on coarse maps come to.
 constexpr std::size_t kPeaksScreened = 8, kMaxUps = 2;
 constexpr double kLikelyUps = 0.8;
+// Spectra are kept of so many scans at once.
+constexpr std::size_t kScansAtOnce = 64;
 
 // One scan from above, for each way that may be up.
 struct ScanMaps {
@@ -56,8 +61,10 @@ struct Search {
 
   void find_footprints(const std::vector<const Cloud*>& clouds);
   void choose_grid();
-  void make_maps(const std::vector<const Cloud*>& clouds, bool for_candidates);
-  std::vector<PeakList> correlate(const std::vector<ScanPair>& pairs, std::size_t num_peaks);
+  void make_maps(const std::vector<const Cloud*>& clouds, const std::vector<std::size_t>& members, bool for_candidates);
+  void drop_maps(const std::vector<std::size_t>& members);
+  std::vector<PeakList> correlate(std::span<const ScanPair> pairs, const std::vector<std::size_t>& members,
+                                  std::size_t num_peaks);
   std::vector<PoseCandidate> candidates(const ScanPair& pair, const PeakList& peaks) const;
   double min_shared(const HeightMap& a, const HeightMap& b) const {
     return std::max(30.0, options.min_shared_share * std::min(a.num_seen, b.num_seen));
@@ -90,10 +97,12 @@ void Search::choose_grid() {
   grid_size = fast_size(static_cast<int>(kPadding * largest_m / cell_m));
 }
 
-void Search::make_maps(const std::vector<const Cloud*>& clouds, bool for_candidates) {
+void Search::make_maps(const std::vector<const Cloud*>& clouds, const std::vector<std::size_t>& members,
+                       bool for_candidates) {
   const Fourier fourier(grid_size);
-  parallel_for(num_threads, scans.size(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
+  parallel_for(num_threads, members.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t m = begin; m < end; ++m) {
+      const std::size_t i = members[m];
       for (const auto& footprint : scans[i].footprints) {
         scans[i].maps.push_back(make_height_map(*clouds[i], footprint, cell_m, options.map));
         const HeightMap& map = scans[i].maps.back();
@@ -109,21 +118,31 @@ void Search::make_maps(const std::vector<const Cloud*>& clouds, bool for_candida
   });
 }
 
+void Search::drop_maps(const std::vector<std::size_t>& members) {
+  for (const std::size_t i : members) {
+    std::vector<Footprint> footprints = std::move(scans[i].footprints);
+    scans[i] = ScanMaps{};
+    scans[i].footprints = std::move(footprints);
+  }
+}
+
 bool wanted(const ScanPair& pair, std::size_t target_map, std::size_t source_map) {
   return pair.ups.empty() || std::any_of(pair.ups.begin(), pair.ups.end(), [&](const UpPair& up) {
            return up.target == target_map && up.source == source_map;
          });
 }
 
-std::vector<PeakList> Search::correlate(const std::vector<ScanPair>& pairs, std::size_t num_peaks) {
+std::vector<PeakList> Search::correlate(std::span<const ScanPair> pairs, const std::vector<std::size_t>& members,
+                                        std::size_t num_peaks) {
   const double distinct_cells = kDistinctShare * options.cells_across;
   std::vector<PeakList> lists(pairs.size(), PeakList(num_peaks, 1.5 * heading_step_rad(), distinct_cells / 2));
   const Fourier fourier(grid_size), mask_fourier(grid_size / kMaskStep);
   // All scans at one heading, then all pairs: memory stays at one spectrum a scan.
   for (int step = 0; step < steps_per_quarter(); ++step) {
     const double heading_rad = step * heading_step_rad();
-    parallel_for(num_threads, scans.size(), [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) {
+    parallel_for(num_threads, members.size(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t m = begin; m < end; ++m) {
+        const std::size_t i = members[m];
         scans[i].turned.clear();
         for (const auto& map : scans[i].maps) {
           scans[i].turned.push_back(transform(turned_images(map, heading_rad, grid_size), fourier));
@@ -237,30 +256,60 @@ void check_pairs(std::size_t num_scans, const std::vector<ScanPair>& pairs) {
   }
 }
 
+// The end of the pairs from `begin` on that name no more scans than are kept at once; and those scans.
+std::size_t next_block(const std::vector<ScanPair>& pairs, std::size_t begin, std::vector<std::size_t>& members) {
+  std::set<std::size_t> in;
+  std::size_t end = begin;
+  for (; end < pairs.size(); ++end) {
+    const std::size_t more = (in.contains(pairs[end].target) ? 0 : 1) + (in.contains(pairs[end].source) ? 0 : 1);
+    if (in.size() + more > kScansAtOnce) break;
+    in.insert({pairs[end].target, pairs[end].source});
+  }
+  members.assign(in.begin(), in.end());
+  return end;
+}
+
+// use(search, first pair of a block, peaks of its pairs), block by block.
+template <typename Use>
+void search_in_blocks(const std::vector<const Cloud*>& scans, const std::vector<ScanPair>& pairs,
+                      const HeightCorrelationOptions& options, int num_threads, bool for_candidates, Use use) {
+  options.validate();
+  check_pairs(scans.size(), pairs);
+  if (pairs.empty()) return;
+  Search search{options, num_threads, {}};
+  search.find_footprints(scans);
+  search.choose_grid();
+  std::vector<std::size_t> members;
+  for (std::size_t begin = 0; begin < pairs.size();) {
+    const std::size_t end = next_block(pairs, begin, members);
+    search.make_maps(scans, members, for_candidates);
+    const auto block = std::span(pairs).subspan(begin, end - begin);
+    use(search, begin, search.correlate(block, members, for_candidates ? kPeaksRefined : kPeaksScreened));
+    search.drop_maps(members);
+    begin = end;
+  }
+}
+
 }  // namespace
 
 std::vector<PairScreening> screen_by_height_maps(const std::vector<const Cloud*>& scans,
                                                  const std::vector<ScanPair>& pairs,
                                                  const HeightCorrelationOptions& options, int num_threads) {
-  options.validate();
-  check_pairs(scans.size(), pairs);
   std::vector<PairScreening> out(pairs.size());
-  if (pairs.empty()) return out;
-  Search search{options, num_threads, {}};
-  search.find_footprints(scans);
-  search.choose_grid();
-  search.make_maps(scans, false);
-  const auto lists = search.correlate(pairs, kPeaksScreened);
-  for (std::size_t k = 0; k < pairs.size(); ++k) {
-    for (const MapPeak& peak : lists[k].peaks()) {
-      out[k].score = std::max(out[k].score, peak.score);
-      const bool known = std::any_of(out[k].ups.begin(), out[k].ups.end(), [&](const UpPair& up) {
-        return up.target == peak.target_map && up.source == peak.source_map;
-      });
-      if (known || out[k].ups.size() == kMaxUps || peak.score < kLikelyUps * out[k].score) continue;
-      out[k].ups.push_back({peak.target_map, peak.source_map});
+  const auto keep = [&](const Search&, std::size_t first, const std::vector<PeakList>& lists) {
+    for (std::size_t k = 0; k < lists.size(); ++k) {
+      PairScreening& pair = out[first + k];
+      for (const MapPeak& peak : lists[k].peaks()) {
+        pair.score = std::max(pair.score, peak.score);
+        const bool known = std::any_of(pair.ups.begin(), pair.ups.end(), [&](const UpPair& up) {
+          return up.target == peak.target_map && up.source == peak.source_map;
+        });
+        if (known || pair.ups.size() == kMaxUps || peak.score < kLikelyUps * pair.score) continue;
+        pair.ups.push_back({peak.target_map, peak.source_map});
+      }
     }
-  }
+  };
+  search_in_blocks(scans, pairs, options, num_threads, false, keep);
   return out;
 }
 
@@ -268,18 +317,15 @@ std::vector<std::vector<PoseCandidate>> correlate_height_maps(const std::vector<
                                                               const std::vector<ScanPair>& pairs,
                                                               const HeightCorrelationOptions& options,
                                                               int num_threads) {
-  options.validate();
-  check_pairs(scans.size(), pairs);
   std::vector<std::vector<PoseCandidate>> out(pairs.size());
-  if (pairs.empty()) return out;
-  Search search{options, num_threads, {}};
-  search.find_footprints(scans);
-  search.choose_grid();
-  search.make_maps(scans, true);
-  const auto lists = search.correlate(pairs, kPeaksRefined);
-  parallel_for(num_threads, pairs.size(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) out[k] = search.candidates(pairs[k], lists[k]);
-  });
+  search_in_blocks(scans, pairs, options, num_threads, true,
+                   [&](const Search& search, std::size_t first, const std::vector<PeakList>& lists) {
+                     parallel_for(num_threads, lists.size(), [&](std::size_t begin, std::size_t end) {
+                       for (std::size_t k = begin; k < end; ++k) {
+                         out[first + k] = search.candidates(pairs[first + k], lists[k]);
+                       }
+                     });
+                   });
   return out;
 }
 

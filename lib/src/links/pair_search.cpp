@@ -12,6 +12,7 @@
 #include "links/link_fit.hpp"
 #include "tcm_icp/coarse/feature_alignment.hpp"
 #include "tcm_icp/coarse/height_correlation.hpp"
+#include "tcm_icp/coarse/scan_words.hpp"
 #include "tcm_icp/coarse/slide_search.hpp"
 #include "tcm_icp/core/parallel.hpp"
 #include "tcm_icp/graph/correspondence_measure.hpp"
@@ -22,7 +23,7 @@ namespace {
 // Height maps first: they are cheap and cover a whole set at once. Local features are asked where those left scans
 // alone, and then slides, which need poses to start from.
 
-// A scan overlaps few others much. Where there are more, all pairs are ranked at little cost first.
+// A scan overlaps few others much. Where there are more, they are ranked by what their surfaces look like.
 constexpr std::size_t kFirstPartners = 6;
 // Doubled twice: a scan that has no clear place by then would cost as much again for every scan of a large set.
 constexpr std::size_t kMostPartners = 24;
@@ -62,28 +63,24 @@ std::vector<std::size_t> most_overlapping(const std::vector<ImpliedPose>& poses,
 
 enum class Tried : char { kNothing, kHeightMaps, kFeatures, kSlides };
 
+Tried next(Tried before) { return static_cast<Tried>(static_cast<char>(before) + 1); }
+
 }  // namespace
 
 struct PairSearch::Impl {
   Impl(const std::vector<PreparedScan>& all, const LinkSearchOptions& o, const RunContext& c)
-      : scans(all), options(o), context(c), tried(all.size() * all.size(), Tried::kNothing) {}
+      : scans(all), options(o), context(c), reach(all.size(), kFirstPartners) {}
 
   const std::vector<PreparedScan>& scans;
   const LinkSearchOptions& options;
   const RunContext& context;
-  std::vector<Tried> tried;             // by pair, a * n + b
-  std::vector<PairScreening> screened;  // by pair, the same
-  std::vector<std::vector<std::size_t>> partners;
-  std::vector<std::size_t> reach;  // how many of them were asked for, of each scan
+  std::map<ScanPairs::value_type, Tried> tried;  // pairs that were
+  std::vector<std::size_t> reach;                // how many partners were asked for, of each scan
   FeatureAlignmentOptions features;
   std::vector<DescribedScan> described;                                                   // once they are asked for
+  std::optional<ScanWords> words;                                                         // the same
   std::map<std::pair<std::size_t, std::size_t>, std::vector<Eigen::Isometry3d>> fitted;   // target and source
   std::map<std::pair<std::size_t, std::size_t>, std::vector<Eigen::Isometry3d>> implied;  // that were tried
-
-  const PairScreening& screening_of(std::size_t a, std::size_t b) const {
-    return screened[std::min(a, b) * scans.size() + std::max(a, b)];
-  }
-  Tried& state(std::size_t a, std::size_t b) { return tried[std::min(a, b) * scans.size() + std::max(a, b)]; }
 
   double overlap_distance_m(std::size_t scan) const {
     return kOverlapInVoxels * scans[scan].pyramid.level(kOverlapLevel).voxel_size_m;
@@ -92,61 +89,46 @@ struct PairSearch::Impl {
     return may_meet(scans[a], scans[b], T_a_b, overlap_distance_m(a));
   }
 
-  /// Pairs of the state wanted, of each wanted scan with its likeliest partners outside its group.
-  ScanPairs pairs(Tried state_wanted, const std::vector<bool>& wanted, const std::vector<std::size_t>& groups) {
-    std::vector<bool> chosen(scans.size() * scans.size(), false);
-    for (std::size_t i = 0; i < scans.size(); ++i) {
-      if (!wanted[i]) continue;
-      std::size_t count = 0;
-      for (const std::size_t j : partners[i]) {
-        if (groups[j] == groups[i]) continue;
-        if (count++ == reach[i]) break;
-        chosen[std::min(i, j) * scans.size() + std::max(i, j)] = true;
-      }
+  /// Of a scan those outside its group, the likeliest first: at most as many as it reaches.
+  std::vector<std::size_t> partners(std::size_t scan, const std::vector<std::size_t>& groups) {
+    std::vector<std::size_t> out;
+    for (std::size_t j = 0; j < scans.size(); ++j) {
+      if (groups[j] != groups[scan]) out.push_back(j);
     }
-    ScanPairs out;
-    for (std::size_t a = 0; a < scans.size(); ++a) {
-      for (std::size_t b = a + 1; b < scans.size(); ++b) {
-        if (chosen[a * scans.size() + b] && state(a, b) == state_wanted) out.emplace_back(a, b);
-      }
+    if (out.size() <= reach[scan]) return out;
+    if (!words) {
+      describe();
+      words.emplace(described, context.num_threads);
     }
+    const std::vector<double> likeness = words->likeness(scan);
+    const auto end = out.begin() + static_cast<std::ptrdiff_t>(reach[scan]);
+    std::partial_sort(out.begin(), end, out.end(), [&](std::size_t x, std::size_t y) {
+      return likeness[x] != likeness[y] ? likeness[x] > likeness[y] : x < y;
+    });
+    out.erase(end, out.end());
     return out;
   }
 
-  /// Of each scan all others, the likeliest to overlap first.
-  void rank_partners() {
-    const std::size_t n = scans.size();
-    if (!partners.empty()) return;
-    partners.resize(n);
-    reach.assign(n, kFirstPartners);
-    screened.resize(n * n);
-    context.report("ranking pairs", 0, n * (n - 1) / 2);
-    std::vector<const Cloud*> clouds;
-    for (const auto& s : scans) clouds.push_back(&s.fine.cloud);
-    std::vector<ScanPair> all;
-    for (std::size_t a = 0; a < n; ++a) {
-      for (std::size_t b = a + 1; b < n; ++b) all.push_back({a, b});
+  /// Pairs of each wanted scan with its likeliest partners outside its group, by what they were tried by.
+  std::map<Tried, ScanPairs> pairs(const std::vector<bool>& wanted, const std::vector<std::size_t>& groups) {
+    std::set<ScanPairs::value_type> chosen;
+    for (std::size_t i = 0; i < scans.size(); ++i) {
+      if (!wanted[i]) continue;
+      for (const std::size_t j : partners(i, groups)) chosen.insert(std::minmax(i, j));
     }
-    HeightCorrelationOptions screening = screening_options();
-    screening.vertical.levelled = options.level;
-    auto screenings = screen_by_height_maps(clouds, all, screening, context.num_threads);
-    for (std::size_t k = 0; k < all.size(); ++k) screened[all[k].target * n + all[k].source] = std::move(screenings[k]);
-    for (std::size_t i = 0; i < n; ++i) {
-      for (std::size_t j = 0; j < n; ++j) {
-        if (j != i) partners[i].push_back(j);
-      }
-      std::stable_sort(partners[i].begin(), partners[i].end(), [&](std::size_t x, std::size_t y) {
-        const double a = screening_of(i, x).score, b = screening_of(i, y).score;
-        return a != b ? a > b : x < y;
-      });
+    std::map<Tried, ScanPairs> out;
+    for (const auto& pair : chosen) {
+      const auto known = tried.find(pair);
+      out[known == tried.end() ? Tried::kNothing : known->second].push_back(pair);
     }
+    return out;
   }
 
   /// Twice as many partners for the wanted scans; false where they had all, or as many as there may be.
   bool reach_further(const std::vector<bool>& wanted) {
     bool more = false;
     for (std::size_t i = 0; i < scans.size(); ++i) {
-      if (!wanted[i] || reach[i] >= std::min(kMostPartners, partners[i].size())) continue;
+      if (!wanted[i] || reach[i] >= std::min(kMostPartners, scans.size() - 1)) continue;
       reach[i] *= 2;
       more = true;
     }
@@ -164,8 +146,12 @@ struct PairSearch::Impl {
         place[i] = clouds.size();
         clouds.push_back(&scans[i].fine.cloud);
       }
-      wanted.push_back({place[a], place[b], screening_of(a, b).ups});
+      wanted.push_back({place[a], place[b]});
     }
+    HeightCorrelationOptions screening = screening_options();
+    screening.vertical.levelled = options.level;
+    const auto screened = screen_by_height_maps(clouds, wanted, screening, context.num_threads);
+    for (std::size_t k = 0; k < wanted.size(); ++k) wanted[k].ups = screened[k].ups;
     HeightCorrelationOptions correlation;
     correlation.vertical.levelled = options.level;
     return correlate_height_maps(clouds, wanted, correlation, context.num_threads);
@@ -215,6 +201,21 @@ struct PairSearch::Impl {
       }
     });
     return out;
+  }
+
+  /// By the method after `before`.
+  std::vector<std::vector<PoseCandidate>> candidates(Tried before, const ScanPairs& pairs) {
+    switch (before) {
+      case Tried::kNothing:
+        context.report("comparing height maps", 0, pairs.size());
+        return by_height_maps(pairs);
+      case Tried::kHeightMaps:
+        context.report("comparing features", 0, pairs.size());
+        return by_features(pairs);
+      default:
+        context.report("comparing along corridors", 0, pairs.size());
+        return by_slides(pairs);
+    }
   }
 
   /// Fits pairs at given poses where they overlap there; of each scan those with the `most_partners` it overlaps with
@@ -321,24 +322,12 @@ bool PairSearch::try_implied(const std::vector<ImpliedPose>& poses, HypothesisSe
 }
 
 bool PairSearch::extend(const std::vector<bool>& wanted, const std::vector<std::size_t>& groups, HypothesisSet& set) {
-  impl_->rank_partners();
   do {
-    if (const ScanPairs pairs = impl_->pairs(Tried::kNothing, wanted, groups); !pairs.empty()) {
-      impl_->context.report("comparing height maps", 0, pairs.size());
-      impl_->fit(pairs, impl_->by_height_maps(pairs), set);
-      for (const auto& [a, b] : pairs) impl_->state(a, b) = Tried::kHeightMaps;
-      return true;
-    }
-    if (const ScanPairs pairs = impl_->pairs(Tried::kHeightMaps, wanted, groups); !pairs.empty()) {
-      impl_->context.report("comparing features", 0, pairs.size());
-      impl_->fit(pairs, impl_->by_features(pairs), set);
-      for (const auto& [a, b] : pairs) impl_->state(a, b) = Tried::kFeatures;
-      return true;
-    }
-    if (const ScanPairs pairs = impl_->pairs(Tried::kFeatures, wanted, groups); !pairs.empty()) {
-      impl_->context.report("comparing along corridors", 0, pairs.size());
-      impl_->fit(pairs, impl_->by_slides(pairs), set);
-      for (const auto& [a, b] : pairs) impl_->state(a, b) = Tried::kSlides;
+    auto pairs = impl_->pairs(wanted, groups);
+    for (const Tried before : {Tried::kNothing, Tried::kHeightMaps, Tried::kFeatures}) {
+      if (pairs[before].empty()) continue;
+      impl_->fit(pairs[before], impl_->candidates(before, pairs[before]), set);
+      for (const auto& pair : pairs[before]) impl_->tried[pair] = next(before);
       return true;
     }
   } while (impl_->reach_further(wanted));
