@@ -70,6 +70,12 @@ Agreement PairGraph::agreement(const ComparedPair& pair, const Eigen::Isometry3d
   return best;
 }
 
+double PairGraph::most_support(const PoseHypothesis& h) const {
+  const double chance = options_.log_poses - (h.implied ? options_.log_implied : 0);
+  return std::log((h.implied ? std::exp(options_.log_missed) : 1) +
+                  std::exp(std::min(h.log_odds, options_.most_log_odds) + chance));
+}
+
 double PairGraph::support_of(std::size_t scan, const Eigen::Isometry3d& T, const Component& component) const {
   double sum = -options_.log_poses;
   for (const std::size_t k : pairs_of(scan)) {

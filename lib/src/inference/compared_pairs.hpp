@@ -83,6 +83,9 @@ class PairGraph {
   /// ascent in the support.
   Agreement agreement(const ComparedPair& pair, const Eigen::Isometry3d& T_a, const Eigen::Isometry3d& T_b) const;
 
+  /// What a hypothesis says for poses that agree with it exactly.
+  double most_support(const PoseHypothesis& hypothesis) const;
+
   /// What the members of `component` say for `scan` at T, less log_poses, which one pose of many has to be worth. A
   /// single hypothesis of log-odds l above 0 comes to about l; every other that agrees adds log_poses beside its own.
   double support_of(std::size_t scan, const Eigen::Isometry3d& T, const Component& component) const;

@@ -92,6 +92,8 @@ bool move_groups(const PairGraph& graph, Component& component) {
     if (part.size() < 2) continue;
     // As poses are by now: an earlier cut may have moved some of these.
     if (!std::all_of(part.begin(), part.end(), [&](std::size_t i) { return component.has(i); })) continue;
+    const double here = measure_support(graph, component, part);
+    if (here >= -kLeastGain && most_elsewhere(graph, component, part) <= std::max(here, 0.0)) continue;
     const Cut now = measure_cut(graph, component, part);
     if (now.other_motion && now.other_support > std::max(now.support, 0.0) + kLeastGain) {
       for (const std::size_t i : now.moved) {
@@ -113,7 +115,7 @@ bool drop_contradicted(const PairGraph& graph, Component& component) {
   bool dropped = false;
   for (const std::vector<std::size_t>& part : weakest_parts(graph, component)) {
     if (!std::all_of(part.begin(), part.end(), [&](std::size_t i) { return component.has(i); })) continue;
-    if (measure_cut(graph, component, part).support >= -kLeastGain) continue;
+    if (measure_support(graph, component, part) >= -kLeastGain) continue;
     for (const std::size_t i : part) component.T_reference_scan[i].reset();
     dropped = true;
   }
@@ -165,6 +167,13 @@ std::vector<Start> strongest(const PairGraph& graph, const std::vector<bool>& op
   return starts;
 }
 
+std::size_t num_starts_for(const std::vector<bool>& open, const InferenceOptions& options) {
+  const auto num_open = std::count(open.begin(), open.end(), true);
+  if (num_open == 0) return 1;
+  const auto affordable = std::max<std::ptrdiff_t>(2, options.max_grown_scans / num_open);
+  return static_cast<std::size_t>(std::min<std::ptrdiff_t>(options.max_starts, affordable));
+}
+
 }  // namespace
 
 double log_likelihood(const PairGraph& graph, const Component& component) {
@@ -204,8 +213,9 @@ std::vector<Component> likeliest_components(const PairGraph& graph) {
     std::optional<Component> best;
     double most = 0;
     std::vector<Component> tried;
+    const std::size_t num_starts = num_starts_for(open, graph.options());
     for (const Start& start : strongest(graph, open)) {
-      if (tried.size() == static_cast<std::size_t>(graph.options().max_starts)) break;
+      if (tried.size() == num_starts) break;
       // A start that an earlier configuration contains leads to the same one.
       const bool contained = std::any_of(tried.begin(), tried.end(), [&](const Component& c) {
         return c.has(start.pair->a) && c.has(start.pair->b) &&

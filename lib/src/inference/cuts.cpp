@@ -117,17 +117,15 @@ std::vector<std::vector<std::size_t>> minimum_cuts(const std::vector<Edge>& edge
 
 namespace {
 
-// A pair across a cut, and where its scans put each other's middles, so that a motion that none of its hypotheses
-// agrees with is told at little cost.
+// A pair across a cut. Where its scans put each other's middles tells at little cost which motions it agrees with.
 struct PairAcross {
   const ComparedPair* pair;
   bool moves_b;
-  Eigen::Isometry3d T_a_reference;       ///< at the poses as they are
   Eigen::Vector3d middle_b;              ///< in the reference's frame, at the poses as they are
-  std::vector<Eigen::Vector3d> middles;  ///< of b in a's frame, by hypothesis
+  std::vector<Eigen::Vector3d> middles;  ///< of b by hypothesis, in the reference's frame with a at its pose
 
   bool may_agree(const PairGraph& graph, const Eigen::Isometry3d& motion, const Eigen::Isometry3d& back) const {
-    const Eigen::Vector3d middle = T_a_reference * ((moves_b ? motion : back) * middle_b);
+    const Eigen::Vector3d middle = (moves_b ? motion : back) * middle_b;
     return std::any_of(middles.begin(), middles.end(), [&](const auto& m) { return graph.same_mean(m, middle); });
   }
 };
@@ -142,56 +140,66 @@ std::vector<PairAcross> pairs_across(const PairGraph& graph, const Component& co
       const ComparedPair& pair = graph.pairs()[k];
       const std::size_t other = pair.a == i ? pair.b : pair.a;
       if (!component.has(other) || is_moved[other]) continue;
-      PairAcross p{&pair,
-                   pair.b == i,
-                   component.T_reference_scan[pair.a]->inverse(),
-                   *component.T_reference_scan[pair.b] * graph.mean_of(pair.b),
-                   {}};
-      for (const PoseHypothesis& h : pair.hypotheses) p.middles.push_back(h.mean);
+      const Eigen::Isometry3d &T_a = *component.T_reference_scan[pair.a], &T_b = *component.T_reference_scan[pair.b];
+      PairAcross p{&pair, pair.b == i, T_b * graph.mean_of(pair.b), {}};
+      for (const PoseHypothesis& h : pair.hypotheses) p.middles.push_back(T_a * h.mean);
       across.push_back(std::move(p));
     }
   }
   return across;
 }
 
+double support_across(const PairGraph& graph, const Component& component, const std::vector<PairAcross>& across,
+                      const Eigen::Isometry3d& motion) {
+  const Eigen::Isometry3d back = motion.inverse();
+  double sum = -graph.options().log_poses;
+  for (const PairAcross& p : across) {
+    if (!p.may_agree(graph, motion, back)) continue;
+    const Eigen::Isometry3d &T_a = *component.T_reference_scan[p.pair->a],
+                            &T_b = *component.T_reference_scan[p.pair->b];
+    sum += p.moves_b ? graph.support(*p.pair, T_a, motion * T_b) : graph.support(*p.pair, motion * T_a, T_b);
+  }
+  return sum;
+}
+
 }  // namespace
 
 Cut measure_cut(const PairGraph& graph, const Component& component, std::vector<std::size_t> moved) {
-  Cut cut{std::move(moved), -graph.options().log_poses, 0, std::nullopt};
+  Cut cut{std::move(moved), 0, 0, std::nullopt};
   const std::vector<PairAcross> across = pairs_across(graph, component, cut.moved);
-  const auto support = [&](const Eigen::Isometry3d& motion) {
-    const Eigen::Isometry3d back = motion.inverse();
-    double sum = -graph.options().log_poses;
-    for (const PairAcross& p : across) {
-      if (!p.may_agree(graph, motion, back)) continue;
-      const Eigen::Isometry3d &T_a = *component.T_reference_scan[p.pair->a],
-                              &T_b = *component.T_reference_scan[p.pair->b];
-      sum += p.moves_b ? graph.support(*p.pair, T_a, motion * T_b) : graph.support(*p.pair, motion * T_a, T_b);
-    }
-    return sum;
-  };
-  cut.support = support(Eigen::Isometry3d::Identity());
-  std::vector<Eigen::Isometry3d> known{Eigen::Isometry3d::Identity()};
+  cut.support = support_across(graph, component, across, Eigen::Isometry3d::Identity());
   for (const PairAcross& p : across) {
     const std::size_t scan = p.moves_b ? p.pair->b : p.pair->a, fixed = p.moves_b ? p.pair->a : p.pair->b;
     const Eigen::Isometry3d &T_scan = *component.T_reference_scan[scan], &T_fixed = *component.T_reference_scan[fixed];
-    const Eigen::Vector3d mean = T_scan * graph.mean_of(scan);
     for (const PoseHypothesis& h : p.pair->hypotheses) {
-      const Eigen::Isometry3d T_fixed_scan = p.moves_b ? h.T_a_b : h.T_a_b.inverse();
-      const Eigen::Isometry3d motion = T_fixed * T_fixed_scan * T_scan.inverse();
-      const Eigen::Vector3d moved_mean = motion * mean;
-      const bool is_known = std::any_of(known.begin(), known.end(), [&](const Eigen::Isometry3d& m) {
-        return graph.same_mean(m * mean, moved_mean) && graph.same_pose(scan, m * T_scan, motion * T_scan);
-      });
-      if (is_known) continue;
-      known.push_back(motion);
-      const double other = support(motion);
+      const Eigen::Isometry3d T_elsewhere = T_fixed * (p.moves_b ? h.T_a_b : h.T_a_b.inverse());
+      if (graph.same_pose(scan, T_scan, T_elsewhere)) continue;
+      const Eigen::Isometry3d motion = T_elsewhere * T_scan.inverse();
+      const double other = support_across(graph, component, across, motion);
       if (cut.other_motion && other <= cut.other_support) continue;
       cut.other_support = other;
       cut.other_motion = motion;
     }
   }
   return cut;
+}
+
+double measure_support(const PairGraph& graph, const Component& component, const std::vector<std::size_t>& moved) {
+  return support_across(graph, component, pairs_across(graph, component, moved), Eigen::Isometry3d::Identity());
+}
+
+double most_elsewhere(const PairGraph& graph, const Component& component, const std::vector<std::size_t>& moved) {
+  double sum = -graph.options().log_poses;
+  for (const PairAcross& p : pairs_across(graph, component, moved)) {
+    double most = 0;
+    for (const PoseHypothesis& h : p.pair->hypotheses) {
+      const Eigen::Isometry3d &T_a = *component.T_reference_scan[p.pair->a],
+                              &T_b = *component.T_reference_scan[p.pair->b];
+      if (!graph.same_pose(p.pair->b, T_b, T_a * h.T_a_b)) most = std::max(most, graph.most_support(h));
+    }
+    sum += most;
+  }
+  return sum;
 }
 
 std::vector<std::size_t> frontier(const PairGraph& graph, const Component& component, const Cut& cut) {

@@ -28,6 +28,13 @@ struct Cut {
 /// The cut between `moved` and the other members.
 Cut measure_cut(const PairGraph& graph, const Component& component, std::vector<std::size_t> moved);
 
+/// Its support alone.
+double measure_support(const PairGraph& graph, const Component& component, const std::vector<std::size_t>& moved);
+
+/// What the pairs across could say, together, for another place of `moved` at the most: that of a motion which leaves no
+/// pair at its pose. Cost: the pairs across.
+double most_elsewhere(const PairGraph& graph, const Component& component, const std::vector<std::size_t>& moved);
+
 /// The parts that minimum cuts of the pairs' support leave, without the reference, each once: for any two members the
 /// weakest hold between them is among them. Cost: a flow for each member.
 std::vector<std::vector<std::size_t>> weakest_parts(const PairGraph& graph, const Component& component);

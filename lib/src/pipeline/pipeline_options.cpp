@@ -51,6 +51,7 @@ void InferenceOptions::validate() const {
   require(log_spread >= 0, "inference log_spread must be at least 0", log_spread);
   require(most_log_odds > 0, "inference most_log_odds must be above 0", most_log_odds);
   require(max_starts >= 1, "inference max_starts must be at least 1", max_starts);
+  require(max_grown_scans >= 1, "inference max_grown_scans must be at least 1", max_grown_scans);
   require(max_sweeps >= 1, "inference max_sweeps must be at least 1", max_sweeps);
 }
 
