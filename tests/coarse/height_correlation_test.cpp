@@ -121,6 +121,30 @@ TEST(HeightCorrelation, IsTheSameForAnyNumberOfThreads) {
   }
 }
 
+// Spectra are kept of 64 scans at once: pairs come in blocks.
+TEST(HeightCorrelation, PairsOfManyScansAreSearchedAsIfAlone) {
+  Rng rng = make_stream(11, "test");
+  constexpr std::size_t kCopies = 30;  // of three scans
+  const SyntheticScene scene = yard(0.02, 0, rng);
+  std::vector<const Cloud*> scans;
+  std::vector<ScanPair> pairs;
+  for (std::size_t copy = 0; copy < kCopies; ++copy) {
+    for (const Cloud* scan : pointers(scene.scans)) scans.push_back(scan);
+    pairs.push_back({3 * copy, 3 * copy + 1});
+    pairs.push_back({3 * copy + 2, (3 * copy + 40) % scans.size()});
+  }
+  HeightCorrelationOptions options = screening_options();
+  const auto all = correlate_height_maps(scans, pairs, options, 2);
+  for (const std::size_t k : {std::size_t{0}, std::size_t{1}, pairs.size() / 2 + 1, pairs.size() - 1}) {
+    const auto alone = correlate_height_maps(scans, {pairs[k]}, options, 1)[0];
+    ASSERT_EQ(alone.size(), all[k].size());
+    for (std::size_t i = 0; i < alone.size(); ++i) {
+      EXPECT_EQ(alone[i].T_target_source.matrix(), all[k][i].T_target_source.matrix());
+      EXPECT_EQ(alone[i].score, all[k][i].score);
+    }
+  }
+}
+
 TEST(HeightCorrelation, ScalesWithTheInput) {
   Rng rng = make_stream(6, "test");
   const SyntheticScene scene = yard(0.02, 0, rng);

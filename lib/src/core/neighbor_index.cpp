@@ -88,11 +88,15 @@ struct AllWithin {
 
 struct NeighborIndex::Impl {
   explicit Impl(std::span<const Eigen::Vector3d> input)
-      : points(copy(input)),
+      : size(input.size()),
+        points(copy(input)),
         tree(boost::counting_iterator<std::uint32_t>(0),
-             boost::counting_iterator<std::uint32_t>(static_cast<std::uint32_t>(points.size())), Splitter(kBucketSize),
+             boost::counting_iterator<std::uint32_t>(static_cast<std::uint32_t>(size)), Splitter(kBucketSize),
              Traits(PointOfIndex{points.data()})) {
-    if (!points.empty()) tree.build();  // or the first query would, and no longer be const
+    if (size == 0) return;
+    tree.build();  // or the first query would, and no longer be const
+    // The tree has the coordinates in its own order now, and queries look nowhere else.
+    points = {};
   }
 
   static std::vector<Point> copy(std::span<const Eigen::Vector3d> input) {
@@ -111,10 +115,11 @@ struct NeighborIndex::Impl {
   /// Shows the visitor what may lie within its limit: nothing where the index is empty or the query not finite.
   template <typename Visitor>
   void search(const Eigen::Vector3d& query, Visitor& visitor) const {
-    if (!points.empty() && query.allFinite()) BoundedDescent(tree, query, visitor).run();
+    if (size > 0 && query.allFinite()) BoundedDescent(tree, query, visitor).run();
   }
 
-  std::vector<Point> points;
+  std::size_t size;
+  std::vector<Point> points;  // while the tree is built
   Tree tree;
 };
 
@@ -123,7 +128,7 @@ NeighborIndex::~NeighborIndex() = default;
 NeighborIndex::NeighborIndex(NeighborIndex&&) noexcept = default;
 NeighborIndex& NeighborIndex::operator=(NeighborIndex&&) noexcept = default;
 
-std::size_t NeighborIndex::size() const { return impl_->points.size(); }
+std::size_t NeighborIndex::size() const { return impl_->size; }
 
 Neighbor NeighborIndex::nearest(const Eigen::Vector3d& query) const {
   return nearest_within(query, std::numeric_limits<double>::infinity());

@@ -33,8 +33,8 @@ class PairSearch {
   /// Tries the pairs of `wanted` scans with those of other `groups` (numbers by scan: poses within a group are clear)
   /// by the next method that they were not tried by: height maps, features, slides of the poses that those fitted to
   /// (slide_search.hpp). Hypotheses go to the set. False where no pair was left. Each scan is tried with the six others
-  /// it most likely overlaps with, by coarse height maps; once they were tried by all methods, wanted scans are tried
-  /// with twice as many. Cost: some 50 ms of processor time a pair and method, 1 ms to rank a pair.
+  /// that look most like it (ScanWords); once they were tried by all methods, wanted scans are tried with twice as many.
+  /// Cost: some 50 ms of processor time a pair and method, and a scan.
   bool extend(const std::vector<bool>& wanted, const std::vector<std::size_t>& groups, HypothesisSet& set);
 
  private:

@@ -18,7 +18,7 @@ std::size_t bin_of(const Eigen::Vector3d& direction) {
 }  // namespace
 
 RangeImage::RangeImage(const Eigen::Vector3d& place, const Points& points) : place_(place), bins_(kBins.size()) {
-  constexpr double kFar = std::numeric_limits<double>::max();
+  constexpr double kFar = std::numeric_limits<float>::max();
   std::vector<double> least(kBins.size(), kFar), greatest(kBins.size(), 0);
   for (const auto& p : points) {
     const Eigen::Vector3d ray = p - place;
@@ -29,18 +29,22 @@ RangeImage::RangeImage(const Eigen::Vector3d& place, const Points& points) : pla
   }
   for (int row = 0; row < kBins.edge(); ++row) {
     for (int column = 0; column < kBins.edge(); ++column) {
-      Surroundings& s = bins_[kBins.wrapped(row, column)];
-      s.least_m = kFar;
+      Surroundings s{kFar, 0, 0};
       for (int k = 0; k < 9; ++k) {
         const std::size_t near = kBins.wrapped(row + k / 3 - 1, column + k % 3 - 1);
         s.least_m = std::min(s.least_m, least[near]);
         s.greatest_m = std::max(s.greatest_m, greatest[near]);
         s.num_filled += least[near] < kFar ? 1 : 0;
       }
+      bins_[kBins.wrapped(row, column)] = {static_cast<float>(s.least_m), static_cast<float>(s.greatest_m),
+                                           static_cast<std::uint8_t>(s.num_filled)};
     }
   }
 }
 
-RangeImage::Surroundings RangeImage::about(const Eigen::Vector3d& direction) const { return bins_[bin_of(direction)]; }
+RangeImage::Surroundings RangeImage::about(const Eigen::Vector3d& direction) const {
+  const Bin& bin = bins_[bin_of(direction)];
+  return {bin.least_m, bin.greatest_m, bin.num_filled};
+}
 
 }  // namespace tcm_icp

@@ -27,8 +27,14 @@ class RangeImage {
   Surroundings about(const Eigen::Vector3d& direction) const;
 
  private:
+  // Single precision, half a megabyte: a scan may have several images, and a set a thousand scans.
+  struct Bin {
+    float least_m = 0, greatest_m = 0;
+    std::uint8_t num_filled = 0;
+  };
+
   Eigen::Vector3d place_;
-  std::vector<Surroundings> bins_;
+  std::vector<Bin> bins_;
 };
 
 }  // namespace tcm_icp
