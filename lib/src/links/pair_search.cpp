@@ -25,6 +25,8 @@ namespace {
 
 // A scan overlaps few others much. Where there are more, they are ranked by what their surfaces look like.
 constexpr std::size_t kFirstPartners = 6;
+// Of those that look alike so many times as many are aligned by features, which tell far better who overlaps.
+constexpr std::size_t kAlignedByReach = 4;
 // Doubled twice: a scan that has no clear place by then would cost as much again for every scan of a large set.
 constexpr std::size_t kMostPartners = 24;
 // Bounds the cost in large sets. Fewer would not do: what tells a place from its twin is that all pairs there are poor.
@@ -79,6 +81,7 @@ struct PairSearch::Impl {
   FeatureAlignmentOptions features;
   std::vector<DescribedScan> described;                                                   // once they are asked for
   std::optional<ScanWords> words;                                                         // the same
+  std::map<std::pair<std::size_t, std::size_t>, std::vector<PoseCandidate>> aligned;      // by features
   std::map<std::pair<std::size_t, std::size_t>, std::vector<Eigen::Isometry3d>> fitted;   // target and source
   std::map<std::pair<std::size_t, std::size_t>, std::vector<Eigen::Isometry3d>> implied;  // that were tried
 
@@ -100,13 +103,42 @@ struct PairSearch::Impl {
       describe();
       words.emplace(described, context.num_threads);
     }
-    const std::vector<double> likeness = words->likeness(scan);
-    const auto end = out.begin() + static_cast<std::ptrdiff_t>(reach[scan]);
-    std::partial_sort(out.begin(), end, out.end(), [&](std::size_t x, std::size_t y) {
-      return likeness[x] != likeness[y] ? likeness[x] > likeness[y] : x < y;
-    });
-    out.erase(end, out.end());
+    const auto keep_best = [&](const std::vector<double>& score, std::size_t count) {
+      if (out.size() <= count) return;
+      const auto end = out.begin() + static_cast<std::ptrdiff_t>(count);
+      std::partial_sort(out.begin(), end, out.end(),
+                        [&](std::size_t x, std::size_t y) { return score[x] != score[y] ? score[x] > score[y] : x < y; });
+      out.erase(end, out.end());
+    };
+    keep_best(words->likeness(scan), kAlignedByReach * reach[scan]);
+    ScanPairs pairs;
+    for (const std::size_t j : out) pairs.push_back(std::minmax(scan, j));
+    align(pairs);
+    std::vector<double> score(scans.size(), 0);
+    for (std::size_t k = 0; k < out.size(); ++k) {
+      const std::vector<PoseCandidate>& found = aligned.at(pairs[k]);
+      if (!found.empty()) score[out[k]] = found.front().score;
+    }
+    keep_best(score, reach[scan]);
     return out;
+  }
+
+  /// By features, what was not yet.
+  void align(const ScanPairs& pairs) {
+    describe();
+    ScanPairs open;
+    for (const auto& pair : pairs) {
+      if (!aligned.contains(pair)) open.push_back(pair);
+    }
+    std::vector<std::vector<PoseCandidate>> found(open.size());
+    parallel_for(context.num_threads, open.size(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t k = begin; k < end; ++k) {
+        const auto [a, b] = open[k];
+        found[k] = align_by_features({scans[a].pyramid, described[a]}, {scans[b].pyramid, described[b]}, features);
+        if (options.level) std::erase_if(found[k], [](const PoseCandidate& c) { return tilts(c.T_target_source); });
+      }
+    });
+    for (std::size_t k = 0; k < open.size(); ++k) aligned.emplace(open[k], std::move(found[k]));
   }
 
   /// Pairs of each wanted scan with its likeliest partners outside its group, by what they were tried by.
@@ -169,15 +201,9 @@ struct PairSearch::Impl {
   }
 
   std::vector<std::vector<PoseCandidate>> by_features(const ScanPairs& pairs) {
-    describe();
-    std::vector<std::vector<PoseCandidate>> out(pairs.size());
-    parallel_for(context.num_threads, pairs.size(), [&](std::size_t begin, std::size_t end) {
-      for (std::size_t k = begin; k < end; ++k) {
-        const auto [a, b] = pairs[k];
-        out[k] = align_by_features({scans[a].pyramid, described[a]}, {scans[b].pyramid, described[b]}, features);
-        if (options.level) std::erase_if(out[k], [](const PoseCandidate& c) { return tilts(c.T_target_source); });
-      }
-    });
+    align(pairs);
+    std::vector<std::vector<PoseCandidate>> out;
+    for (const auto& pair : pairs) out.push_back(aligned.at(pair));
     return out;
   }
 
