@@ -29,12 +29,14 @@ from paper.methods import QUICK_SAMPLING, QUICK_SCENES
 from paper.plan import FULL, ROUGH_POSES, Extent
 from paper.program import Program, Stopped
 from paper.progress import Progress
-from paper.provenance import program_id, write_provenance
+from paper.provenance import program_id, record_tables, write_provenance
 from paper.scenes import PAPER_SETS, SceneMaker, own_sets
 from paper.summary import summarize
 from paper.variants import ABLATIONS
 
 QUICK = Extent("quick", (1,), (), QUICK_SAMPLING, (*QUICK_SCENES, *ROUGH_POSES), 120)
+
+SECONDS_EACH = {"full": 5, "quick": 3}  # processor time of a run with its evaluation, for the plan
 
 
 class Bench:
@@ -130,10 +132,13 @@ def main():
     except ValueError as e:
         sys.exit(f"ablations.py: {e}")
     options.out.mkdir(parents=True, exist_ok=True)
-    write_provenance(options.out, options.exe, extent)
+    found = write_provenance(options.out, options.exe, extent)
     bench = Bench(options, extent, data_sets)
     chosen = [a for a in ABLATIONS if not options.only or a.key in options.only]
-    progress = Progress(sum(len(bench.cells(a)) * len(a.variants) for a in chosen))
+    runs = sum(len(bench.cells(a)) * len(a.variants) for a in chosen)
+    print(f"{runs} runs, those that are finished among them; about {runs * SECONDS_EACH[extent.name] / 60:.0f} min of "
+          "processor time from the beginning", file=sys.stderr)
+    progress = Progress(runs)
     parts = [f"# Ablations\n\n{extent.name.capitalize()} run: {', '.join(d.name for d in data_sets)}; seeds "
              f"{', '.join(map(str, extent.seeds))}. Medians over all of them, [least, largest]; shares of scans over all "
              "scans.\n"]
@@ -149,6 +154,7 @@ def main():
         header, rows, sentence = table(ablation, results)
         write_table(options.out, f"ablation-{ablation.key}", header, rows, ablation.title, sentence)
         parts.append(f"## {ablation.title}\n\n{markdown(header, rows)}\n{sentence}\n")
+        record_tables(options.out, [f"ablation-{ablation.key}"], found)
         (options.out / "ablations.md").write_text("\n".join(parts), encoding="utf-8")
     print("\n".join(parts))
 
