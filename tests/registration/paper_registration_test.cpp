@@ -245,7 +245,7 @@ TEST(PaperRegistrationOptions, RejectValuesOutOfRange) {
   PaperRegistrationOptions no_rounds, no_end, no_threshold, none_kept, too_many_kept, no_change;
   no_rounds.reading.max_rounds = 0;
   no_end.convergence_share = 0;
-  no_threshold.threshold_m = 0;
+  no_threshold.threshold_m = -1;
   none_kept.reading.kept_share = 0;
   too_many_kept.reading.kept_share = 1.01;
   no_change.reading.marginal_share = 0;

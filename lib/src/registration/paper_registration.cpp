@@ -67,8 +67,8 @@ void PaperOptions::validate() const {
 
 void PaperRegistrationOptions::validate() const {
   reading.validate();
-  if (!(threshold_m > 0)) {
-    throw InvalidOptions("threshold_m must be above 0, not " + std::to_string(threshold_m));
+  if (!(threshold_m >= 0)) {
+    throw InvalidOptions("threshold_m must be at least 0, not " + std::to_string(threshold_m));
   }
   if (!(convergence_share > 0)) {
     throw InvalidOptions("convergence_share must be above 0, not " + std::to_string(convergence_share));

@@ -13,7 +13,7 @@ namespace tcm_icp {
 
 struct PaperRegistrationOptions {
   PaperOptions reading;
-  double threshold_m = std::numeric_limits<double>::infinity();  ///< > 0; of PaperMatches::kThreshold
+  double threshold_m = std::numeric_limits<double>::infinity();  ///< >= 0; of PaperMatches::kThreshold
   double convergence_share = 1e-4;  ///< > 0; a step that moves the points less than this share of their radius (rms),
                                     ///< or a mean slack that falls by less than this share, is the last
   L1FitOptions lp;
