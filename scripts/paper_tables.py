@@ -6,7 +6,7 @@
 Tables 1-4 (time, iterations, RMS, error due to isolated points and feature blurring), bar charts, curves over noise,
 occlusion and removal, and pictures, as CSV, Markdown, LaTeX and PNG. Data sets 1-4 after the paper are simulated: urban,
 street, canopy, street (another seed). --scenes takes your own instead: folders of scans with a truth.json. Full: medians
-over 5 seeds with their range, 2 hours on one core. --quick: smaller scans, one seed, two levels, below 10 minutes on 2
+over 5 seeds with their range, 2 hours on one core. --quick: smaller scans, one seed, one level, some 4 minutes on 2
 cores.
 
 --cell SET KIND PERCENT SEED METHOD repeats one measurement, from the simulation to the figures, and prints them beside
@@ -50,7 +50,7 @@ from paper.scenes import PAPER_SETS, SceneMaker, own_sets
 from paper.standing import standing
 from paper.table_rows import table
 
-QUICK = Extent("quick", (1,), (20, 40), QUICK_SAMPLING, (*QUICK_SCENES, *ROUGH_POSES), 120)
+QUICK = Extent("quick", (1,), (30,), QUICK_SAMPLING, (*QUICK_SCENES, *ROUGH_POSES), 120)
 PICTURED = "none", 0
 # Processor time of one run with its evaluation [s], measured on two cores of an AMD EPYC: for the plan.
 SECONDS = {"full": {"robust": 4, "paper": 4, "icp": 14, "features": 18}, "quick": {"robust": 2, "paper": 2, "icp": 5, "features": 7}}
@@ -220,13 +220,13 @@ def draw(bench, curve_sets):
 def main():
     ap = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     ap.add_argument("--out", type=Path, required=True)
-    ap.add_argument("--quick", action="store_true", help="small scans, one seed, two levels")
+    ap.add_argument("--quick", action="store_true", help="small scans, one seed, one level")
     ap.add_argument("--scenes", nargs="+", help="your own scenes in place of the simulated ones")
     ap.add_argument("--exe", type=Path, help="the program to measure, in place of the one on PATH or in build/")
     ap.add_argument("--conventional-exe", type=Path, help="for ICP and features, where --exe was built without PCL")
     ap.add_argument("--methods", nargs="+", choices=list(BY_KEY), help="run these only; the others' finished cells count")
     ap.add_argument("--seeds", type=int, nargs="+", help="in place of 1 to 5, or 1 with --quick")
-    ap.add_argument("--levels", type=int, nargs="+", help="of the curves [%%], in place of 10, 30, 50, or 20 and 40 with --quick")
+    ap.add_argument("--levels", type=int, nargs="+", help="of the curves [%%], in place of 10, 30, 50, or 30 with --quick")
     ap.add_argument("--jobs", type=int, help="runs at a time: 1, or 2 with --quick; more than the idle cores disturb the times")
     ap.add_argument("--plan", action="store_true", help="say what is to be run and what it costs, and stop")
     ap.add_argument("--cell", nargs=5, metavar=("SET", "KIND", "PERCENT", "SEED", "METHOD"), help="repeat one measurement")
