@@ -19,7 +19,7 @@ from statistics import median
 from paper.cells import CellStore, cell_name
 from paper.executable import find_exe, has_baselines
 from paper.formats import markdown, write_table
-from paper.measure import initial_poses, measure
+from paper.measure import initial_poses, judged, measure
 from paper.methods import QUICK_SAMPLING, QUICK_SCENES
 from paper.plan import FULL, ROUGH_POSES
 from paper.program import Program, Stopped
@@ -62,6 +62,7 @@ class Bench:
 
 def row(reading, results, keys):
     """Shares over all scans but the references, medians over the runs; the share of right scans of each set in the end."""
+    results = [(key, judged(r)) for key, r in results]
     known = [r for _, r in results if "why" not in r]
     if not known:
         return [reading.question, reading.name, *["-"] * (4 + len(keys))]
@@ -72,7 +73,7 @@ def row(reading, results, keys):
     rms = [r["rms"] for r in known if r["rms"] is not None]
     by_set = [[r for key, r in results if key == k and "why" not in r] for k in keys]
     wrong = 100 * sum(r["wrong"] for r in known) / sum(r["scans"] - 1 for r in known)
-    return [reading.question, reading.name, right(known), number(wrong), number(median(rms)) if rms else "-",
+    return [reading.question, reading.name, right(known), number(wrong), number(median(rms)) if rms else "none is placed",
             number(median(r["cpu_s"] for r in known)), *(right(of) if of else "-" for of in by_set)]
 
 
