@@ -242,14 +242,16 @@ TEST(RegisterPaper, NothingToMatchIsTooFewCorrespondences) {
 
 TEST(PaperRegistrationOptions, RejectValuesOutOfRange) {
   EXPECT_NO_THROW(PaperRegistrationOptions().validate());
-  PaperRegistrationOptions no_rounds, no_end, no_threshold, none_kept, too_many_kept, no_change;
+  PaperRegistrationOptions no_rounds, no_end, no_threshold, none_kept, too_many_kept, no_change, sided_twist;
   no_rounds.reading.max_rounds = 0;
   no_end.convergence_share = 0;
   no_threshold.threshold_m = -1;
   none_kept.reading.kept_share = 0;
   too_many_kept.reading.kept_share = 1.01;
   no_change.reading.marginal_share = 0;
-  for (const auto& bad : {no_rounds, no_end, no_threshold, none_kept, too_many_kept, no_change}) {
+  sided_twist.reading.unknowns = PaperUnknowns::kTwist;
+  sided_twist.reading.slack = PaperSlack::kAbove;
+  for (const auto& bad : {no_rounds, no_end, no_threshold, none_kept, too_many_kept, no_change, sided_twist}) {
     EXPECT_THROW(bad.validate(), InvalidOptions);
   }
 }

@@ -62,6 +62,9 @@ void PaperOptions::validate() const {
   if (!(marginal_share > 0)) {
     throw InvalidOptions("paper marginal_share must be above 0, not " + std::to_string(marginal_share));
   }
+  if (unknowns == PaperUnknowns::kTwist && slack != PaperSlack::kBoth) {
+    throw InvalidOptions("paper unknowns twist goes with slack both alone: one-sided slack is of the 12 entries");
+  }
   if (max_rounds < 1) throw InvalidOptions("paper max_rounds must be at least 1, not " + std::to_string(max_rounds));
 }
 
