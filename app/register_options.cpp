@@ -79,6 +79,23 @@ constexpr Names<Refinement, 5> kRefinements{"refinement",
                                               {"annealing", Refinement::kAnnealing},
                                               {"both", Refinement::kDescentThenAnnealing}}}};
 
+constexpr Names<PaperMatches, 3> kPaperMatches{"paper.matches",
+                                               {{{"nearest", PaperMatches::kNearest},
+                                                 {"threshold", PaperMatches::kThreshold},
+                                                 {"mutual", PaperMatches::kMutual}}}};
+constexpr Names<PaperSlack, 4> kPaperSlacks{"paper.slack",
+                                            {{{"both", PaperSlack::kBoth},
+                                              {"above", PaperSlack::kAbove},
+                                              {"below", PaperSlack::kBelow},
+                                              {"between", PaperSlack::kBetween}}}};
+constexpr Names<PaperEnd, 2> kPaperEnds{"paper.end", {{{"motion", PaperEnd::kMotion}, {"slack", PaperEnd::kSlack}}}};
+constexpr Names<PaperPoints, 2> kPaperPoints{"paper.points",
+                                             {{{"sample", PaperPoints::kSample}, {"all", PaperPoints::kAll}}}};
+constexpr Names<PaperUnknowns, 2> kPaperUnknowns{
+    "paper.unknowns", {{{"entries", PaperUnknowns::kEntries}, {"twist", PaperUnknowns::kTwist}}}};
+constexpr Names<PaperDescent, 2> kPaperDescents{
+    "paper.descent", {{{"scans", PaperDescent::kWholeScans}, {"matches", PaperDescent::kMatches}}}};
+
 constexpr Names<CloudFormat, 6> kFormats{"format",
                                          {{{"ply", CloudFormat::kPly},
                                            {"las", CloudFormat::kLas},
@@ -94,6 +111,7 @@ struct Choices {
   std::string voxel = "0", format = kFormats.name(OutputOptions{}.format),
               colour = kColours.name(OutputOptions{}.colour);
   std::string accept_residual = "0", accept_overlap = "0", accept_sigma = "0";
+  std::string paper_matches, paper_slack, paper_end, paper_points, paper_unknowns, paper_descent;
 
   explicit Choices(const PipelineOptions& p)
       : profile(kProfiles.name(p.profile)),
@@ -101,7 +119,13 @@ struct Choices {
         outliers(kOutlierMethods.name(p.outliers.method)),
         refinement(kRefinements.name(p.refinement.method)),
         formulation(kFormulations.name(p.formulation)),
-        merge_order(kMergeOrders.name(p.merge_order)) {}
+        merge_order(kMergeOrders.name(p.merge_order)),
+        paper_matches(kPaperMatches.name(p.paper.matches)),
+        paper_slack(kPaperSlacks.name(p.paper.slack)),
+        paper_end(kPaperEnds.name(p.paper.end)),
+        paper_points(kPaperPoints.name(p.paper.points)),
+        paper_unknowns(kPaperUnknowns.name(p.paper.unknowns)),
+        paper_descent(kPaperDescents.name(p.paper.descent)) {}
 
   void apply(PipelineOptions& p) const {
     p.profile = kProfiles.parse(profile);
@@ -110,6 +134,12 @@ struct Choices {
     p.refinement.method = kRefinements.parse(refinement);
     p.formulation = kFormulations.parse(formulation);
     p.merge_order = kMergeOrders.parse(merge_order);
+    p.paper.matches = kPaperMatches.parse(paper_matches);
+    p.paper.slack = kPaperSlacks.parse(paper_slack);
+    p.paper.end = kPaperEnds.parse(paper_end);
+    p.paper.points = kPaperPoints.parse(paper_points);
+    p.paper.unknowns = kPaperUnknowns.parse(paper_unknowns);
+    p.paper.descent = kPaperDescents.parse(paper_descent);
   }
 };
 
@@ -198,6 +228,25 @@ po::options_description sampling_options(PipelineOptions& p) {
                                                                    value(p.sampling.max_surface_variation),
                                                                    "0..0.333; rougher places do not count as surfaces");
   return sampling;
+}
+
+po::options_description paper_options(PaperOptions& o, Choices& c) {
+  po::options_description paper("Readings of the paper's method, --profile paper (docs/decisions/0009)");
+  paper.add_options()("paper.matches", value(c.paper_matches),
+                      "points the simplex matches: nearest (all), threshold (within that of the correspondence graph) "
+                      "or mutual (nearest both ways)")(
+      "paper.kept-share", value(o.kept_share), "above 0, at most 1; of the matches, those with the least distances")(
+      "paper.slack", value(c.paper_slack),
+      "in each coordinate: both (=, slack both ways), above (<), below (>) or between (mean of the two)")(
+      "paper.unknowns", value(c.paper_unknowns), "entries (12 of R and T) or twist (6 of a small motion)")(
+      "paper.points", value(c.paper_points), "sample (as many as --lp.coarse-points) or all of the coarse voxels")(
+      "paper.rounds", value(o.max_rounds), "most rounds of matching and simplex")(
+      "paper.end", value(c.paper_end),
+      "what ends them before: motion (points no longer move) or slack (it no longer falls)")(
+      "paper.descent", value(c.paper_descent), "what descent and annealing take tau over: scans (whole) or matches")(
+      "paper.marginal", value(o.marginal_share),
+      "marginal change of the descent and the annealing at first, as a share of the coarse voxel");
+  return paper;
 }
 
 po::options_description survey_options(SurveyOptions& o) {
@@ -311,7 +360,8 @@ po::options_description configurable(RegisterOptions& o, Choices& c) {
       .add(report_options(o.report, c))
       .add(outlier_options(p, c))
       .add(sampling_options(p))
-      .add(placement);
+      .add(placement)
+      .add(paper_options(p.paper, c));
   return main;
 }
 

@@ -5,12 +5,14 @@
 
 LP solver (GLPK, CGAL), LP formulation, merge order, outlier removal, refinement and joint adjustment: a table each, as
 CSV and Markdown, with one sentence on what its figures say. Scenes, --quick, resuming and what lies beside the tables
-are those of paper_tables.py, and a DIR of its --out is used again. Without --exe, the tcm-icp on PATH is measured, else
+are those of paper_tables.py, and a DIR of its --out is used again. --scans 12 and --scans 30 measure larger sets, where the
+order of merging and joint programs may matter more. Without --exe, the tcm-icp on PATH is measured, else
 the one in build/. Needs numpy.
 """
 
 import argparse
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 try:
@@ -29,12 +31,14 @@ from paper.methods import QUICK_SAMPLING, QUICK_SCENES
 from paper.plan import FULL, ROUGH_POSES, Extent
 from paper.program import Program, Stopped
 from paper.progress import Progress
-from paper.provenance import program_id, write_provenance
+from paper.provenance import program_id, record_tables, write_provenance
 from paper.scenes import PAPER_SETS, SceneMaker, own_sets
 from paper.summary import summarize
 from paper.variants import ABLATIONS
 
 QUICK = Extent("quick", (1,), (), QUICK_SAMPLING, (*QUICK_SCENES, *ROUGH_POSES), 120)
+
+SECONDS_EACH = {"full": 5, "quick": 3}  # processor time of a run with its evaluation, for the plan
 
 
 class Bench:
@@ -43,7 +47,8 @@ class Bench:
         self.program = Program(options.exe, options.out / "commands.txt", extent.time_limit_s)
         self.id = program_id(options.exe)
         self.store = CellStore(options.out / "cells")
-        self.scenes = SceneMaker(self.program, options.out / "scenes", extent.simulate)
+        folder = "scenes" if options.scans is None else f"scenes-of-{options.scans}"
+        self.scenes = SceneMaker(self.program, options.out / folder, extent.simulate)
 
     def cells(self, ablation):
         return [(d, s) for s in self.extent.seeds for d in self.data_sets]
@@ -121,19 +126,32 @@ def main():
     ap.add_argument("--quick", action="store_true", help="small scans, one seed")
     ap.add_argument("--scenes", nargs="+", help="your own scenes in place of the simulated ones")
     ap.add_argument("--exe", type=Path, help="the program to measure, in place of the one on PATH or in build/")
+    ap.add_argument("--scans", type=int, help="scans of a set, in place of 4; the tables get the number in their names")
+    ap.add_argument("--seeds", type=int, nargs="+", help="in place of 1 to 5, or 1 with --quick")
     ap.add_argument("--only", nargs="+", choices=[a.key for a in ABLATIONS], help="these ablations")
     options = ap.parse_args()
     options.exe = find_exe("ablations.py", options.exe)
     extent = QUICK if options.quick else FULL
+    if options.seeds:
+        extent = replace(extent, seeds=tuple(options.seeds))
+    suffix = ""
+    if options.scans is not None:
+        simulate = list(extent.simulate)
+        simulate[simulate.index("--scans") + 1] = str(options.scans)
+        extent = replace(extent, simulate=tuple(simulate))
+        suffix = f"-{options.scans}-scans"
     try:
         data_sets = own_sets(options.scenes) if options.scenes else [d for d in PAPER_SETS if d.key != "4"]
     except ValueError as e:
         sys.exit(f"ablations.py: {e}")
     options.out.mkdir(parents=True, exist_ok=True)
-    write_provenance(options.out, options.exe, extent)
+    found = write_provenance(options.out, options.exe, extent)
     bench = Bench(options, extent, data_sets)
     chosen = [a for a in ABLATIONS if not options.only or a.key in options.only]
-    progress = Progress(sum(len(bench.cells(a)) * len(a.variants) for a in chosen))
+    runs = sum(len(bench.cells(a)) * len(a.variants) for a in chosen)
+    print(f"{runs} runs, those that are finished among them; about {runs * SECONDS_EACH[extent.name] * (options.scans or 4) / 4 / 60:.0f} min of "
+          "processor time from the beginning", file=sys.stderr)
+    progress = Progress(runs)
     parts = [f"# Ablations\n\n{extent.name.capitalize()} run: {', '.join(d.name for d in data_sets)}; seeds "
              f"{', '.join(map(str, extent.seeds))}. Medians over all of them, [least, largest]; shares of scans over all "
              "scans.\n"]
@@ -147,9 +165,11 @@ def main():
                 outcome = result.get("why") or f"{result['ok']}/{result['scans']} right, {result['cpu_s']:.1f} s"
                 progress.step(f"{ablation.key}, {variant.name}, set {data_set.key} seed {seed}: {outcome}", was_run)
         header, rows, sentence = table(ablation, results)
-        write_table(options.out, f"ablation-{ablation.key}", header, rows, ablation.title, sentence)
+        name = f"ablation-{ablation.key}{suffix}"
+        write_table(options.out, name, header, rows, ablation.title, sentence)
         parts.append(f"## {ablation.title}\n\n{markdown(header, rows)}\n{sentence}\n")
-        (options.out / "ablations.md").write_text("\n".join(parts), encoding="utf-8")
+        record_tables(options.out, [name], found)
+        (options.out / f"ablations{suffix}.md").write_text("\n".join(parts), encoding="utf-8")
     print("\n".join(parts))
 
 

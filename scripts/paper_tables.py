@@ -6,10 +6,13 @@
 Tables 1-4 (time, iterations, RMS, error due to isolated points and feature blurring), bar charts, curves over noise,
 occlusion and removal, and pictures, as CSV, Markdown, LaTeX and PNG. Data sets 1-4 after the paper are simulated: urban,
 street, canopy, street (another seed). --scenes takes your own instead: folders of scans with a truth.json. Full: medians
-over 5 seeds with their range, 2 hours on one core. --quick: smaller scans, one seed, two levels, below 10 minutes on 2
+over 5 seeds with their range, 2 hours on one core. --quick: smaller scans, one seed, one level, some 4 minutes on 2
 cores.
 
-It can be interrupted and started again: finished cells (DIR/cells) are not run again, as long as the program is the
+--cell SET KIND PERCENT SEED METHOD repeats one measurement, from the simulation to the figures, and prints them beside
+those of docs/results/cells.csv: --cell 2 noise 30 4 robust. Kinds: none, init, isolated, blur, noise, occlusion, remove.
+
+It prints first how many runs it plans and what they cost. It can be interrupted and started again: finished cells (DIR/cells) are not run again, as long as the program is the
 same; --methods runs the cells of some methods only. Beside the tables: commands.txt (every command line),
 provenance.json (seeds, versions, commit). A cell without a figure says why. Needs numpy and matplotlib, and a tcm-icp
 built with PCL (-DTCM_ICP_WITH_PCL=ON), which may be another one than --exe (--conventional-exe); without one it ends
@@ -41,13 +44,17 @@ from paper.methods import BY_KEY, CONVENTIONAL, METHODS, QUICK_SAMPLING, QUICK_S
 from paper.plan import FULL, ISOLATED_PERCENT, ROUGH_POSES, Extent, cells, spec
 from paper.program import Program, Stopped
 from paper.progress import Progress
-from paper.provenance import program_id, write_provenance
+from paper.provenance import REPOSITORY, program_id, record_tables, write_provenance
+from paper.published import compare, published, row_of, write_cells
 from paper.scenes import PAPER_SETS, SceneMaker, own_sets
 from paper.standing import standing
 from paper.table_rows import table
 
-QUICK = Extent("quick", (1,), (20, 40), QUICK_SAMPLING, (*QUICK_SCENES, *ROUGH_POSES), 120)
+QUICK = Extent("quick", (1,), (30,), QUICK_SAMPLING, (*QUICK_SCENES, *ROUGH_POSES), 120)
 PICTURED = "none", 0
+# Processor time of one run with its evaluation [s], measured on two cores of an AMD EPYC: for the plan.
+SECONDS = {"full": {"robust": 4, "paper": 4, "icp": 14, "features": 18}, "quick": {"robust": 2, "paper": 2, "icp": 5, "features": 7}}
+PUBLISHED = REPOSITORY / "docs" / "results" / "cells.csv"
 
 
 class Bench:
@@ -102,6 +109,29 @@ class Bench:
         return folder if folder.exists() and "why" not in result else result.get("why", "its files were not kept")
 
 
+def print_plan(bench, todo, jobs):
+    """How many cells are to be run, and about how long that takes."""
+    missing = [cell for cell in todo if not bench.store.get(bench.spec(cell))]
+    seconds = sum(SECONDS[bench.extent.name][cell[-1]] for cell in missing)
+    by_method = ", ".join(f"{sum(c[-1] == m for c in missing)} {BY_KEY[m].name}" for m in BY_KEY if any(c[-1] == m for c in missing))
+    print(f"{len(todo)} cells, {len(todo) - len(missing)} of them finished; to be run: {by_method or 'none'}; about "
+          f"{seconds / 60:.0f} min of processor time, {seconds / 60 / jobs:.0f} min with {jobs} at a time", file=sys.stderr)
+
+
+def repeat_cell(bench, words):
+    """One cell, measured now whatever is kept, beside what was published."""
+    key, kind, percent, seed, method = words
+    data_set = next((d for d in bench.data_sets if d.key == key), None)
+    if data_set is None or method not in BY_KEY:
+        sys.exit(f"paper_tables.py: --cell: sets are {', '.join(d.key for d in bench.data_sets)}, methods {', '.join(BY_KEY)}")
+    cell = (data_set, kind, float(percent), int(seed), method)
+    bench.store.path(bench.spec(cell)).unlink(missing_ok=True)
+    result, _ = bench.run(cell)
+    mine = row_of(cell, result, bench.ids[method])
+    print("\n".join(compare(mine, published(PUBLISHED, cell))))
+    print("commands: " + str(bench.out / "commands.txt"))
+
+
 def run_cells(bench, todo, jobs):
     progress = Progress(len(todo))
 
@@ -128,7 +158,17 @@ def note_of(extent):
     return f"Full run: scans of moderate size{scans}, medians over {len(extent.seeds)} seeds, [least, largest]."
 
 
+def tables_of(data_sets, curve_sets):
+    return [*(f"table-set{d.key}" for d in data_sets), *(f"curves-set{d.key}" for d in curve_sets), "bars", "standing", "cells"]
+
+
 def write_tables(bench, curve_sets):
+    rows = []
+    for cell in cells(bench.data_sets, curve_sets, bench.extent):
+        result = bench.store.get(bench.spec(cell))
+        if result:
+            rows.append(row_of(cell, result, bench.ids[cell[-1]]))
+    write_cells(bench.out / "cells.csv", rows)
     parts = [f"# Tables and figures\n\n{note_of(bench.extent)} RMS and distances are of the scans a method placed; the "
              "rows of right and wrong scans say how many those are. They are taken over the points of the undamaged scans.\n"]
     for data_set in bench.data_sets:
@@ -180,20 +220,23 @@ def draw(bench, curve_sets):
 def main():
     ap = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     ap.add_argument("--out", type=Path, required=True)
-    ap.add_argument("--quick", action="store_true", help="small scans, one seed, two levels")
+    ap.add_argument("--quick", action="store_true", help="small scans, one seed, one level")
     ap.add_argument("--scenes", nargs="+", help="your own scenes in place of the simulated ones")
     ap.add_argument("--exe", type=Path, help="the program to measure, in place of the one on PATH or in build/")
     ap.add_argument("--conventional-exe", type=Path, help="for ICP and features, where --exe was built without PCL")
     ap.add_argument("--methods", nargs="+", choices=list(BY_KEY), help="run these only; the others' finished cells count")
     ap.add_argument("--seeds", type=int, nargs="+", help="in place of 1 to 5, or 1 with --quick")
-    ap.add_argument("--levels", type=int, nargs="+", help="of the curves [%%], in place of 10, 30, 50, or 20 and 40 with --quick")
+    ap.add_argument("--levels", type=int, nargs="+", help="of the curves [%%], in place of 10, 30, 50, or 30 with --quick")
     ap.add_argument("--jobs", type=int, help="runs at a time: 1, or 2 with --quick; more than the idle cores disturb the times")
+    ap.add_argument("--plan", action="store_true", help="say what is to be run and what it costs, and stop")
+    ap.add_argument("--cell", nargs=5, metavar=("SET", "KIND", "PERCENT", "SEED", "METHOD"), help="repeat one measurement")
     ap.add_argument("--draw-only", action="store_true", help="tables and figures of the cells that are there")
     options = ap.parse_args()
     options.exe = find_exe("paper_tables.py", options.exe)
     if options.conventional_exe:
         options.conventional_exe = find_exe("paper_tables.py", options.conventional_exe)
-    if not options.draw_only and set(options.methods or CONVENTIONAL) & set(CONVENTIONAL):
+    asked = [options.cell[-1]] if options.cell else options.methods or CONVENTIONAL
+    if not options.draw_only and not options.plan and set(asked) & set(CONVENTIONAL):
         require_baselines("paper_tables.py", options.conventional_exe or options.exe)
     extent = QUICK if options.quick else FULL
     if options.seeds:
@@ -207,12 +250,20 @@ def main():
     options.out.mkdir(parents=True, exist_ok=True)
     curve_sets = data_sets if options.scenes else [d for d in data_sets if d.key in ("2", "3")]
     bench = Bench(options, extent, data_sets)
-    write_provenance(options.out, options.exe, extent, options.conventional_exe)
+    if options.cell:
+        repeat_cell(bench, options.cell)
+        return
+    found = write_provenance(options.out, options.exe, extent, options.conventional_exe)
     if not options.draw_only:
         methods = [BY_KEY[key] for key in options.methods] if options.methods else METHODS
-        run_cells(bench, cells(data_sets, curve_sets, extent, methods), options.jobs or (2 if options.quick else 1))
+        todo, jobs = cells(data_sets, curve_sets, extent, methods), options.jobs or (2 if options.quick else 1)
+        print_plan(bench, todo, jobs)
+        if options.plan:
+            return
+        run_cells(bench, todo, jobs)
     write_tables(bench, curve_sets)
     draw(bench, curve_sets)
+    record_tables(options.out, tables_of(data_sets, curve_sets), found)
     print((options.out / "tables.md").read_text(encoding="utf-8"))
 
 

@@ -21,6 +21,12 @@ _tcm_icp() {
     --refinement) words="auto none descent annealing both" ;;
     --merge-order) words="tcm paper-tcm robust-tcm overlap file random" ;;
     --lp.formulation) words="plane point entries squares" ;;
+    --paper.matches) words="nearest threshold mutual" ;;
+    --paper.slack) words="both above below between" ;;
+    --paper.unknowns) words="entries twist" ;;
+    --paper.points) words="sample all" ;;
+    --paper.end) words="motion slack" ;;
+    --paper.descent) words="scans matches" ;;
     --bin) words="kitti nuscenes" ;;
     --unit) words="m mm ft us-ft" ;;
     --scene) words="town block street urban canopy interior plaza bays town-grid" ;;

@@ -54,6 +54,29 @@ def provenance(exe, extent, conventional_exe=None):
             "matplotlib": matplotlib.__version__, "processor": processor(), "cores": os.cpu_count()}
 
 
+def kept_tables(path):
+    """What was recorded of tables already."""
+    try:
+        return json.loads(path.read_text(encoding="utf-8")).get("tables", {})
+    except (OSError, ValueError):
+        return {}
+
+
 def write_provenance(folder, exe, extent, conventional_exe=None):
-    text = json.dumps(provenance(exe, extent, conventional_exe), indent=1)
-    (folder / "provenance.json").write_text(text + "\n", encoding="utf-8")
+    path = folder / "provenance.json"
+    found = provenance(exe, extent, conventional_exe)
+    found["tables"] = kept_tables(path)
+    path.write_text(json.dumps(found, indent=1) + "\n", encoding="utf-8")
+    return found
+
+
+def record_tables(folder, names, found):
+    """Where each table comes from: its command, commit and programs, table by table, for a folder holds those of several
+    runs. @param found  what write_provenance() gave"""
+    path = folder / "provenance.json"
+    whole = json.loads(path.read_text(encoding="utf-8"))
+    keys = ("command", "commit", "uncommitted_changes", "program", "program_of_icp_and_features", "pcl", "python", "numpy",
+            "extent", "seeds")
+    for name in names:
+        whole["tables"][name] = {key: found[key] for key in keys}
+    path.write_text(json.dumps(whole, indent=1, sort_keys=False) + "\n", encoding="utf-8")

@@ -80,6 +80,7 @@ TEST_F(Inspect, BuildsTheGraphAndReferenceOfThePaperProfile) {
       run(Words{"register"} + kTown + Words{"--profile", "paper", "--refinement", "none", "--out", "paper"});
   ASSERT_TRUE(outcome.exit_code == 0 || outcome.exit_code == 3) << outcome.err;
   const Json report = read_json(folder() / "paper" / "report.json");
+  EXPECT_EQ(report["options"]["paper"]["matches"], "mutual");
   EXPECT_EQ(graph, report["graph"]);
   EXPECT_EQ(graph["reference"], read_json(folder() / "paper" / "poses.json")["reference"]);
 }

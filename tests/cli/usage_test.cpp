@@ -34,6 +34,8 @@ TEST_F(Usage, RefusesUnknownCommandsAndOptions) {
 
 TEST_F(Usage, RefusesUnknownNamesAndTellsTheKnown) {
   expect_bad({"--profile", "best"}, {"--profile 'best'", "robust, paper"});
+  expect_bad({"--paper.matches", "near"}, {"--paper.matches 'near'", "nearest, threshold, mutual"});
+  expect_bad({"--paper.kept-share", "0"}, {"kept_share must be above 0"});
   expect_bad({"--solver", "soplex"}, {"--solver 'soplex'", "glpk, cgal"});
   expect_bad({"--outliers", "some"}, {"--outliers 'some'", "kmeans"});
   expect_bad({"--refinement", "icp"}, {"--refinement 'icp'", "descent"});

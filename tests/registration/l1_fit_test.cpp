@@ -328,5 +328,41 @@ TEST(L1Fit, DrawsItsNoiseFromTheSeed) {
   EXPECT_NE(fit_l1(rows.A, rows.d, options).x, x);
 }
 
+// The least total slack of lines a + b t that lie on or above all points: one of them goes through two points.
+double least_slack_above(const Eigen::VectorXd& t, const Eigen::VectorXd& d) {
+  double least = std::numeric_limits<double>::infinity();
+  for (Eigen::Index i = 0; i < t.size(); ++i) {
+    for (Eigen::Index j = 0; j < i; ++j) {
+      const double slope = (d[i] - d[j]) / (t[i] - t[j]);
+      const Eigen::VectorXd over = (slope * (t.array() - t[i]) + d[i] - d.array()).matrix();
+      if (over.minCoeff() > -1e-12) least = std::min(least, over.sum());
+    }
+  }
+  return least;
+}
+
+TEST(L1Fit, OneSidedIsTheClosestLineWithNothingBeyondIt) {
+  Rng rng = make_stream(21, "l1_fit_test");
+  Eigen::MatrixXd A(30, 2);
+  Eigen::VectorXd d(30);
+  for (Eigen::Index i = 0; i < 30; ++i) {
+    A.row(i) << 1, 10 * uniform01(rng);
+    d[i] = 3 - 0.5 * A(i, 1) + standard_normal(rng);
+  }
+  L1FitOptions above, below;
+  above.side = L1Side::kAbove;
+  below.side = L1Side::kBelow;
+  const L1FitResult over = fit_l1(A, d, above), under = fit_l1(A, d, below);
+  ASSERT_TRUE(over.optimal());
+  ASSERT_TRUE(under.optimal());
+  constexpr double kTieNoise = 2e-5;  // of right-hand sides of some metres, each moved by up to 1e-6 of their median
+  EXPECT_GE((A * over.x - d).minCoeff(), -kTieNoise);
+  EXPECT_LE((A * under.x - d).maxCoeff(), kTieNoise);
+  EXPECT_NEAR(over.objective, least_slack_above(A.col(1), d), 30 * kTieNoise);
+  EXPECT_NEAR(under.objective, least_slack_above(A.col(1), -d), 30 * kTieNoise);
+  // Slack both ways leaves less of it: a choice among the three is no choice.
+  EXPECT_LT(fit_l1(A, d).objective, std::min(over.objective, under.objective) - 1);
+}
+
 }  // namespace
 }  // namespace tcm_icp

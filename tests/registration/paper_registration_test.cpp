@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+#include <numeric>
+
 #include "support/matchers.hpp"
 #include "support/random_points.hpp"
 #include "support/synthetic_scene.hpp"
@@ -127,6 +130,106 @@ TEST(RegisterPaper, ConvergesFromANearbyStartOnTheSamePoints) {
   EXPECT_EQ(result.num_correspondences, source.size());
 }
 
+// Half of the target is missing, so that half of the source has no counterpart.
+struct HalfSeen {
+  Points source, target;
+  Isometry3d truth, start;
+};
+
+HalfSeen half_seen(std::uint64_t seed) {
+  Rng rng = make_stream(seed, "paper_registration_test half");
+  HalfSeen s;
+  s.source = testing::synthetic_scene({.num_scans = 1, .points_per_scan = 1500}, rng).scans[0].points;
+  s.truth = testing::random_pose(5, rng);
+  for (const auto& p : s.source) {
+    if (p.x() + 0.3 * p.y() > 0) s.target.push_back(s.truth * p);
+  }
+  s.start = testing::perturbed(s.truth, s.source, 0.03, 0.3, rng);
+  return s;
+}
+
+TEST(RegisterPaper, PointsWithoutCounterpartPullUnlessTheReadingLeavesThemOut) {
+  const HalfSeen s = half_seen(11);
+  const NeighborIndex index(s.target);
+  const auto error_with = [&](const PaperRegistrationOptions& options) {
+    const RegistrationResult result = register_paper(s.source, s.target, index, s.start, options);
+    EXPECT_TRUE(result.usable()) << to_string(result.termination);
+    return testing::pose_rmse_m(s.truth, result.T_target_source, s.source);
+  };
+  PaperRegistrationOptions all, near, mutual, half, small_motion;
+  all.reading = near.reading = mutual.reading = half.reading =
+      PaperOptions{.matches = PaperMatches::kNearest, .kept_share = 1, .max_rounds = 60, .end = PaperEnd::kMotion};
+  near.reading.matches = PaperMatches::kThreshold;
+  near.threshold_m = 1;
+  mutual.reading.matches = PaperMatches::kMutual;
+  half.reading.kept_share = 0.4;
+  small_motion = half;
+  small_motion.reading.unknowns = PaperUnknowns::kTwist;
+  const double with_all = error_with(all);
+  EXPECT_GT(with_all, 0.2);
+  for (const auto& better : {near, mutual, half, small_motion}) EXPECT_LT(error_with(better), with_all / 4);
+}
+
+TEST(RegisterPaper, TheSlackNeverRisesWhereItEndsTheRounds) {
+  const HalfSeen s = half_seen(12);
+  const NeighborIndex index(s.target);
+  PaperRegistrationOptions options;
+  options.reading.end = PaperEnd::kSlack;
+  double last = std::numeric_limits<double>::infinity();
+  for (const int rounds : {1, 2, 4, 8, 100}) {
+    options.reading.max_rounds = rounds;
+    const RegistrationResult result = register_paper(s.source, s.target, index, s.start, options);
+    const PaperMatchedPoints matches =
+        paper_matches(s.source, NeighborIndex(s.source), s.target, index, result.T_target_source, options);
+    const double slack = std::accumulate(matches.distances.begin(), matches.distances.end(), 0.0);
+    EXPECT_LE(slack, last) << rounds << " rounds";
+    last = slack;
+  }
+}
+
+TEST(PaperMatches, KeepsTheNearestInTheOrderOfThePoints) {
+  const Points source{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}}, target{{0, 0, 0.3}, {1, 0, 0.1}, {2, 0, 0.2}};
+  const NeighborIndex source_index(source), target_index(target);
+  PaperRegistrationOptions options;
+  options.reading = {.matches = PaperMatches::kNearest, .kept_share = 0.5};
+  const auto half = paper_matches(source, source_index, target, target_index, Isometry3d::Identity(), options);
+  ASSERT_EQ(half.source.size(), 2u);
+  EXPECT_EQ(half.source[0], source[1]);
+  EXPECT_EQ(half.source[1], source[2]);
+  EXPECT_NEAR(half.distances[1], 0.2, 1e-12);
+  options.reading = {.matches = PaperMatches::kMutual, .kept_share = 1};
+  const auto mutual = paper_matches(source, source_index, target, target_index, Isometry3d::Identity(), options);
+  EXPECT_EQ(mutual.source, (Points{source[0], source[1], source[2]}));  // the last one's neighbour has a nearer one
+  options.reading.matches = PaperMatches::kThreshold;
+  options.threshold_m = 0.25;
+  const auto near = paper_matches(source, source_index, target, target_index, Isometry3d::Identity(), options);
+  EXPECT_EQ(near.source, (Points{source[1], source[2]}));
+}
+
+TEST(PaperSimplexStep, OneSidedSlackLeavesNoPointOnTheOtherSide) {
+  Rng rng = make_stream(13, "paper_registration_test");
+  const Points source = testing::random_points(60, 10, rng);
+  const Isometry3d truth = testing::random_pose(5, rng);
+  Points target = moved(source, truth);
+  for (auto& p : target) p += 0.1 * Vector3d(standard_normal(rng), standard_normal(rng), standard_normal(rng));
+  const auto residuals = [&](PaperSlack slack) {
+    Isometry3d T = Isometry3d::Identity();
+    LpFigures figures;
+    EXPECT_EQ(paper_simplex_step(source, target, {}, T, figures, slack), Termination::kConverged);
+    EXPECT_TRUE(is_rigid(T.matrix(), 1e-12));
+    Eigen::Matrix3Xd out(3, 60);
+    for (Eigen::Index i = 0; i < 60; ++i) {
+      out.col(i) = T * source[static_cast<std::size_t>(i)] - target[static_cast<std::size_t>(i)];
+    }
+    return out;
+  };
+  EXPECT_GE(residuals(PaperSlack::kAbove).minCoeff(), -1e-9);
+  EXPECT_LE(residuals(PaperSlack::kBelow).maxCoeff(), 1e-9);
+  const double both = residuals(PaperSlack::kBoth).cwiseAbs().mean();
+  EXPECT_LT(both, residuals(PaperSlack::kBetween).cwiseAbs().mean());
+  EXPECT_LT(residuals(PaperSlack::kBetween).cwiseAbs().mean(), residuals(PaperSlack::kAbove).cwiseAbs().mean());
+}
+
 TEST(RegisterPaper, NothingToMatchIsTooFewCorrespondences) {
   Rng rng = make_stream(9, "paper_registration_test");
   const Points points = testing::random_points(10, 1, rng);
@@ -139,11 +242,18 @@ TEST(RegisterPaper, NothingToMatchIsTooFewCorrespondences) {
 
 TEST(PaperRegistrationOptions, RejectValuesOutOfRange) {
   EXPECT_NO_THROW(PaperRegistrationOptions().validate());
-  PaperRegistrationOptions no_iterations, no_end;
-  no_iterations.max_iterations = 0;
+  PaperRegistrationOptions no_rounds, no_end, no_threshold, none_kept, too_many_kept, no_change, sided_twist;
+  no_rounds.reading.max_rounds = 0;
   no_end.convergence_share = 0;
-  EXPECT_THROW(no_iterations.validate(), InvalidOptions);
-  EXPECT_THROW(no_end.validate(), InvalidOptions);
+  no_threshold.threshold_m = -1;
+  none_kept.reading.kept_share = 0;
+  too_many_kept.reading.kept_share = 1.01;
+  no_change.reading.marginal_share = 0;
+  sided_twist.reading.unknowns = PaperUnknowns::kTwist;
+  sided_twist.reading.slack = PaperSlack::kAbove;
+  for (const auto& bad : {no_rounds, no_end, no_threshold, none_kept, too_many_kept, no_change, sided_twist}) {
+    EXPECT_THROW(bad.validate(), InvalidOptions);
+  }
 }
 
 }  // namespace

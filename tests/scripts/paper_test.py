@@ -19,6 +19,8 @@ from paper.formats import latex, markdown
 from paper.measure import errors_of, iterations_of
 from paper.methods import METHODS
 from paper.plan import CURVES, FULL, TABLE_KINDS, cells
+from paper.published import compare, published, row_of, write_cells
+from paper.readings import DEFAULT, READINGS
 from paper.scenes import PAPER_SETS, own_sets
 from paper.summary import number, ratios, summarize
 from paper.table_rows import table
@@ -40,6 +42,38 @@ class Cells(unittest.TestCase):
 
     def test_names_differ_where_only_a_list_does(self):
         self.assertNotEqual(cell_name({"a": ["--x"]}), cell_name({"a": ["--y"]}))
+
+
+class Published(unittest.TestCase):
+    CELL = PAPER_SETS[1], "noise", 30, 4, "robust"
+    RESULT = {"scans": 4, "ok": 4, "flagged": 0, "wrong": 0, "rms": 0.0123456789, "c2c_mean": 0.01, "c2c_std": None,
+              "cpu_s": 1.5, "iterations": {"simplex": 10, "descent": 5}}
+
+    def test_a_cell_that_was_written_is_found_by_what_it_is_of(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "cells.csv"
+            self.assertIsNone(published(path, self.CELL))
+            write_cells(path, [row_of(self.CELL, self.RESULT, "abc")])
+            row = published(path, self.CELL)
+            self.assertEqual((row["rms"], row["iterations"], row["c2c_std"], row["program"]), ("0.0123457", "15", "", "abc"))
+            self.assertIsNone(published(path, (*self.CELL[:3], 5, "robust")))
+
+    def test_both_figures_stand_side_by_side_and_none_is_said(self):
+        mine = row_of(self.CELL, self.RESULT, "abc")
+        lines = compare(mine, {"rms": "0.02"})
+        self.assertTrue(any(line.split() == ["rms", "0.0123457", "0.02"] for line in lines), lines)
+        self.assertTrue(all(line.endswith("none") for line in compare(mine, None)[1:]))
+
+
+class Readings(unittest.TestCase):
+    def test_each_differs_from_the_default_in_what_it_says_alone(self):
+        default = dict(zip(READINGS[0].arguments[::2], READINGS[0].arguments[1::2]))
+        self.assertEqual(default, {"--profile": "paper", **{f"--paper.{k}": v for k, v in DEFAULT.items()}})
+        for reading in READINGS[2:]:
+            options = dict(zip(reading.arguments[::2], reading.arguments[1::2]))
+            changed = [k for k in options if options[k] != default.get(k)]
+            self.assertIn(len(changed), (1, 2, 3), reading.name)
+        self.assertEqual(len({r.arguments for r in READINGS}), len(READINGS))
 
 
 class Executable(unittest.TestCase):

@@ -63,7 +63,8 @@ void run_paper_pipeline(const PipelineInput& in, PipelineResult& result) {
   in.clock.begin("merge");
   MergedCloud s(resolutions.coarse_m);
   s.add(scans[reference].pyramid.level(0).cloud, Eigen::Isometry3d::Identity());
-  const MergeOptions merging = in.options.merging();
+  MergeOptions merging = in.options.merging();
+  merging.correspondence_threshold_m = result.graph.threshold;
   TcmOrder order(scans, merging, in.context);
   std::vector<Eigen::Isometry3d> T(n, Eigen::Isometry3d::Identity());
   std::vector<bool> merged(n, false);

@@ -64,15 +64,16 @@ void PipelineOptions::validate() const {
   samples.validate();
   adjustment.validate();
   refinement.validate();
+  paper.validate();
   inference.validate();
   decision.validate();
 }
 
 MergeOptions PipelineOptions::merging() const {
-  const bool paper = profile == Profile::kPaper;
-  MergeOptions out{merge_order, paper, tcm, formulation, lp, refinement};
+  const bool is_paper = profile == Profile::kPaper;
+  MergeOptions out{merge_order, is_paper, tcm, formulation, lp, refinement, paper, 0};
   if (refinement.method == Refinement::kAuto) {
-    out.refinement.method = paper ? Refinement::kDescentThenAnnealing : Refinement::kNone;
+    out.refinement.method = is_paper ? Refinement::kDescentThenAnnealing : Refinement::kNone;
   }
   return out;
 }

@@ -57,8 +57,11 @@ LinearProgram dual_program(const Eigen::MatrixXd& A, const Eigen::VectorXd& d, c
   lp.objective = d;
   Rng rng = make_stream(options.seed, "l1_fit tie breaking");
   for (double& value : lp.objective) value += options.tie_breaking * (2 * uniform01(rng) - 1);
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   lp.lower = -weights;
   lp.upper = weights;
+  if (options.side == L1Side::kBelow) lp.lower.setConstant(-kInfinity);
+  if (options.side == L1Side::kAbove) lp.upper.setConstant(kInfinity);
   return lp;
 }
 

@@ -89,29 +89,49 @@ const char* name_of(Refinement method) {
   }
 }
 
+// The words of the command line, in the order of the enumerations.
+template <typename Enum, std::size_t N>
+const char* word(Enum value, const char* const (&words)[N]) {
+  return words[static_cast<std::size_t>(value)];
+}
+
+Json paper_options_json(const PaperOptions& o) {
+  return {{"matches", word(o.matches, {"nearest", "threshold", "mutual"})},
+          {"kept_share", o.kept_share},
+          {"slack", word(o.slack, {"both", "above", "below", "between"})},
+          {"unknowns", word(o.unknowns, {"entries", "twist"})},
+          {"points", word(o.points, {"sample", "all"})},
+          {"rounds", o.max_rounds},
+          {"end", word(o.end, {"motion", "slack"})},
+          {"descent", word(o.descent, {"scans", "matches"})},
+          {"marginal", o.marginal_share}};
+}
+
 Json options_json(const PipelineOptions& o, const RunContext& context) {
-  return {{"profile", o.profile == Profile::kPaper ? "paper" : "robust"},
-          {"solver", to_string(o.lp.lp.solver)},
-          {"lp_formulation", name_of(o.formulation)},
-          {"merge_order", name_of(o.merge_order)},
-          {"reference", o.reference},
-          {"graph_threshold", o.graph_threshold},
-          {"level", o.level},
-          {"outliers", name_of(o.outliers.method)},
-          {"max_working_points", o.sampling.max_working_points},
-          {"coarse_voxels", o.sampling.coarse_voxels},
-          {"fine_voxels", o.sampling.fine_voxels},
-          {"coarse_points", o.samples.coarse_points},
-          {"fine_points", o.samples.fine_points},
-          {"held_out_points", o.samples.held_out_points},
-          {"adjustment_lp_steps", o.adjustment.lp_steps},
-          {"adjustment_steps", o.adjustment.steps},
-          {"confidence", o.decision.confidence},
-          {"refinement", name_of(o.merging().refinement.method)},
-          {"descent_steps", o.refinement.descent_steps},
-          {"annealing_steps", o.refinement.annealing_steps},
-          {"seed", context.seed},
-          {"threads", context.num_threads}};
+  Json options{{"profile", o.profile == Profile::kPaper ? "paper" : "robust"},
+               {"solver", to_string(o.lp.lp.solver)},
+               {"lp_formulation", name_of(o.formulation)},
+               {"merge_order", name_of(o.merge_order)},
+               {"reference", o.reference},
+               {"graph_threshold", o.graph_threshold},
+               {"level", o.level},
+               {"outliers", name_of(o.outliers.method)},
+               {"max_working_points", o.sampling.max_working_points},
+               {"coarse_voxels", o.sampling.coarse_voxels},
+               {"fine_voxels", o.sampling.fine_voxels},
+               {"coarse_points", o.samples.coarse_points},
+               {"fine_points", o.samples.fine_points},
+               {"held_out_points", o.samples.held_out_points},
+               {"adjustment_lp_steps", o.adjustment.lp_steps},
+               {"adjustment_steps", o.adjustment.steps},
+               {"confidence", o.decision.confidence},
+               {"refinement", name_of(o.merging().refinement.method)},
+               {"descent_steps", o.refinement.descent_steps},
+               {"annealing_steps", o.refinement.annealing_steps},
+               {"seed", context.seed},
+               {"threads", context.num_threads}};
+  if (o.profile == Profile::kPaper) options["paper"] = paper_options_json(o.paper);
+  return options;
 }
 
 // What was measured of a scan's place, and what was made of it.

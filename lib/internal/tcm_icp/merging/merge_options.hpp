@@ -2,6 +2,7 @@
 // How scans are merged into S.
 
 #include "tcm_icp/registration/lp_registration.hpp"
+#include "tcm_icp/registration/paper_options.hpp"
 #include "tcm_icp/tcm/robust_tcm.hpp"
 
 namespace tcm_icp {
@@ -38,6 +39,8 @@ struct MergeOptions {
   LpFormulation formulation = LpFormulation::kPointToPlane;  ///< of the robust profile's linear programs
   L1FitOptions lp;
   RefinementOptions refinement;
+  PaperOptions paper;
+  double correspondence_threshold_m = 0;  ///< of the graph, for PaperMatches::kThreshold
 };
 
 }  // namespace tcm_icp

@@ -11,6 +11,7 @@
 #include "tcm_icp/pipeline/register_scans.hpp"
 #include "tcm_icp/registration/l1_fit.hpp"
 #include "tcm_icp/registration/lp_registration.hpp"
+#include "tcm_icp/registration/paper_options.hpp"
 #include "tcm_icp/scans/sampling_options.hpp"
 #include "tcm_icp/tcm/robust_tcm.hpp"
 
@@ -31,6 +32,7 @@ struct PipelineOptions {
   LpFormulation formulation = LpFormulation::kPointToPlane;  ///< of every linear program of the robust profile
   AdjustmentOptions adjustment;
   RefinementOptions refinement;
+  PaperOptions paper;  ///< readings of the paper's profile
   InferenceOptions inference;
   DecisionOptions decision;
   void validate() const;  ///< throws InvalidOptions naming field, value and bound

@@ -9,8 +9,12 @@
 
 namespace tcm_icp {
 
+/// Where A x may lie: on both sides of d, or nowhere below or above it.
+enum class L1Side { kBoth, kAbove, kBelow };
+
 struct L1FitOptions {
   LpOptions lp;
+  L1Side side = L1Side::kBoth;
   double tie_breaking = 1e-6;    ///< >= 0; noise on d, in units of the median non-zero |d|, so that no two vertices tie
   std::uint64_t seed = 42;       ///< of that noise
   double rank_tolerance = 1e-6;  ///< in (0, 1); directions of x weaker than this share of the strongest stay 0
@@ -32,6 +36,9 @@ struct L1FitResult {
 };
 
 /// min over x of sum_i w_i |(A x - d)_i|, through its dual: max d'y, A'y = 0, -w <= y <= w; x is the dual of A'y = 0.
+///
+/// One-sided (A x >= d, or <=, for every row of weight above 0) y has no bound on the side that must stay empty: the
+/// same program with the weight there infinite.
 ///
 /// Columns of A are divided by their root mean square and d by the median of its non-zero absolute values, so units do
 /// not matter. Seeded noise of tie_breaking on d is part of the program, the same for both solvers: without it regular
