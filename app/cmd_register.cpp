@@ -32,12 +32,20 @@ void check_usage(const RegisterOptions& o) {
   if (o.method == Method::kFeatures && !o.initial_poses.empty()) {
     throw InvalidOptions("--init: --method features finds its poses by itself; leave --init out, or use --method icp");
   }
+  if (!o.work.empty() && o.method != Method::kTcm) {
+    throw InvalidOptions("--work: --method tcm alone has steps that can be kept; leave one of the two out");
+  }
   if (o.out.empty()) throw InvalidOptions("--out DIR is missing: where is the result to go?");
 }
 
 PipelineResult run_method(const RegisterOptions& o, const std::vector<std::filesystem::path>& paths,
                           const InitialPoses& guess, const Survey& survey, const RunContext& context) {
-  if (o.method == Method::kTcm) return Pipeline(o.pipeline).run(paths, guess, context, survey);
+  if (o.method == Method::kTcm) {
+    const auto steps = open_work_folder(o.work, context);
+    PipelineResult result = Pipeline(o.pipeline, steps).run(paths, guess, context, survey);
+    if (steps) report_steps(*steps, context);
+    return result;
+  }
   return register_by_pairs(paths, guess, o.pipeline, context, name_of(o.method), pair_method(o.method));
 }
 

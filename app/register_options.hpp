@@ -46,6 +46,7 @@ struct RegisterOptions : ScanSetOptions {
   ReportOptions report;
   Method method = Method::kTcm;
   std::string out;
+  std::string work;  ///< folder that keeps finished steps; empty: none
   bool force = false;
   bool print_config = false;
   bool help_all = false;

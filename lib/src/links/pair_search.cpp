@@ -1,6 +1,7 @@
 #include "links/pair_search.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -10,6 +11,7 @@
 
 #include "core/acceptance.hpp"
 #include "links/link_fit.hpp"
+#include "links/pair_steps.hpp"
 #include "tcm_icp/coarse/feature_alignment.hpp"
 #include "tcm_icp/coarse/height_correlation.hpp"
 #include "tcm_icp/coarse/slide_search.hpp"
@@ -34,6 +36,8 @@ constexpr int kMaxFits = 3;
 // The pyramid's level at which poses are asked for overlap, and the distance of what overlaps, in its voxels.
 constexpr std::size_t kOverlapLevel = 2;
 constexpr double kOverlapInVoxels = 2;
+// Pairs whose height maps are compared together: they share transforms; what is cut off is done again.
+constexpr std::size_t kBlock = 64;
 
 // Each of the two may be off the vertical.
 bool tilts(const Eigen::Isometry3d& T) { return T.linear()(2, 2) < std::cos(2 * kMaxLevelTilt_deg * EIGEN_PI / 180); }
@@ -65,12 +69,13 @@ enum class Tried : char { kNothing, kHeightMaps, kFeatures, kSlides };
 }  // namespace
 
 struct PairSearch::Impl {
-  Impl(const std::vector<PreparedScan>& all, const LinkSearchOptions& o, const RunContext& c)
-      : scans(all), options(o), context(c), tried(all.size() * all.size(), Tried::kNothing) {}
+  Impl(const std::vector<PreparedScan>& all, const LinkSearchOptions& o, const RunContext& c, const StepStore* s)
+      : scans(all), options(o), context(c), steps(s), tried(all.size() * all.size(), Tried::kNothing) {}
 
   const std::vector<PreparedScan>& scans;
   const LinkSearchOptions& options;
   const RunContext& context;
+  const StepStore* steps;
   std::vector<Tried> tried;             // by pair, a * n + b
   std::vector<PairScreening> screened;  // by pair, the same
   std::vector<std::vector<std::size_t>> partners;
@@ -129,7 +134,8 @@ struct PairSearch::Impl {
     }
     HeightCorrelationOptions screening = screening_options();
     screening.vertical.levelled = options.level;
-    auto screenings = screen_by_height_maps(clouds, all, screening, context.num_threads);
+    const auto screen = [&] { return screen_by_height_maps(clouds, all, screening, context.num_threads); };
+    auto screenings = steps != nullptr ? screenings_once(*steps, screening_key(scans, screening), screen) : screen();
     for (std::size_t k = 0; k < all.size(); ++k) screened[all[k].target * n + all[k].source] = std::move(screenings[k]);
     for (std::size_t i = 0; i < n; ++i) {
       for (std::size_t j = 0; j < n; ++j) {
@@ -153,7 +159,59 @@ struct PairSearch::Impl {
     return more;
   }
 
+  /// Those of the pairs that are kept; of the others, a block at a time is searched and kept.
   std::vector<std::vector<PoseCandidate>> by_height_maps(const ScanPairs& pairs) const {
+    if (steps == nullptr) return search_height_maps(pairs, height_map_options());
+    HeightCorrelationOptions correlation = height_map_options();
+    correlation.grid = choose_correlation_grid(clouds_of(pairs), correlation, context.num_threads);
+    std::vector<std::vector<PoseCandidate>> out(pairs.size());
+    std::vector<std::size_t> missing;
+    for (std::size_t k = 0; k < pairs.size(); ++k) {
+      auto known = find_candidates(*steps, height_map_key_of(pairs[k], correlation));
+      if (known) out[k] = std::move(*known);
+      if (!known) missing.push_back(k);
+    }
+    for (std::size_t first = 0; first < missing.size(); first += kBlock) {
+      context.report("comparing height maps", pairs.size() - missing.size() + first, pairs.size());
+      const std::size_t size = std::min(kBlock, missing.size() - first);
+      ScanPairs block;
+      for (std::size_t i = first; i < first + size; ++i) block.push_back(pairs[missing[i]]);
+      const auto start = std::chrono::steady_clock::now();
+      auto found = search_height_maps(block, correlation);
+      const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+      for (std::size_t i = 0; i < size; ++i) {
+        save_candidates(*steps, height_map_key_of(block[i], correlation), found[i],
+                        elapsed.count() / static_cast<double>(size));
+        out[missing[first + i]] = std::move(found[i]);
+      }
+    }
+    return out;
+  }
+
+  HeightCorrelationOptions height_map_options() const {
+    HeightCorrelationOptions correlation;
+    correlation.vertical.levelled = options.level;
+    return correlation;
+  }
+
+  StepKey height_map_key_of(const ScanPairs::value_type& pair, const HeightCorrelationOptions& correlation) const {
+    const auto [a, b] = pair;
+    return height_map_key(scans[a], scans[b], screening_of(a, b).ups, correlation);
+  }
+
+  /// Of the scans that are in a pair.
+  std::vector<const Cloud*> clouds_of(const ScanPairs& pairs) const {
+    std::vector<bool> is_in(scans.size(), false);
+    for (const auto& [a, b] : pairs) is_in[a] = is_in[b] = true;
+    std::vector<const Cloud*> out;
+    for (std::size_t i = 0; i < scans.size(); ++i) {
+      if (is_in[i]) out.push_back(&scans[i].fine.cloud);
+    }
+    return out;
+  }
+
+  std::vector<std::vector<PoseCandidate>> search_height_maps(const ScanPairs& pairs,
+                                                             const HeightCorrelationOptions& correlation) const {
     constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
     std::vector<const Cloud*> clouds;  // of the scans that are in a pair
     std::vector<std::size_t> place(scans.size(), kNone);
@@ -166,16 +224,21 @@ struct PairSearch::Impl {
       }
       wanted.push_back({place[a], place[b], screening_of(a, b).ups});
     }
-    HeightCorrelationOptions correlation;
-    correlation.vertical.levelled = options.level;
     return correlate_height_maps(clouds, wanted, correlation, context.num_threads);
   }
 
-  void describe() {
-    if (!described.empty()) return;
+  /// The scans of the pairs that are `wanted`.
+  void describe(const ScanPairs& pairs, const std::vector<char>& wanted) {
     described.resize(scans.size());
+    std::vector<char> missing(scans.size(), 0);
+    for (std::size_t k = 0; k < pairs.size(); ++k) {
+      for (const std::size_t i : {pairs[k].first, pairs[k].second}) {
+        if (wanted[k] != 0 && described[i].levels.empty()) missing[i] = 1;
+      }
+    }
     parallel_for(context.num_threads, scans.size(), [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
+        if (missing[i] == 0) continue;
         Rng rng = make_stream(context.seed, "features", scans[i].key);
         described[i] = describe_scan(scans[i].pyramid, features, rng);
       }
@@ -183,13 +246,26 @@ struct PairSearch::Impl {
   }
 
   std::vector<std::vector<PoseCandidate>> by_features(const ScanPairs& pairs) {
-    describe();
     std::vector<std::vector<PoseCandidate>> out(pairs.size());
+    std::vector<char> missing(pairs.size(), 1);
+    for (std::size_t k = 0; k < pairs.size() && steps != nullptr; ++k) {
+      auto known = find_candidates(*steps, feature_key(scans[pairs[k].first], scans[pairs[k].second], options));
+      if (!known) continue;
+      out[k] = std::move(*known);
+      missing[k] = 0;
+    }
+    describe(pairs, missing);
+    const auto search = [&](std::size_t a, std::size_t b) {
+      auto found = align_by_features({scans[a].pyramid, described[a]}, {scans[b].pyramid, described[b]}, features);
+      if (options.level) std::erase_if(found, [](const PoseCandidate& c) { return tilts(c.T_target_source); });
+      return found;
+    };
     parallel_for(context.num_threads, pairs.size(), [&](std::size_t begin, std::size_t end) {
       for (std::size_t k = begin; k < end; ++k) {
+        if (missing[k] == 0) continue;
         const auto [a, b] = pairs[k];
-        out[k] = align_by_features({scans[a].pyramid, described[a]}, {scans[b].pyramid, described[b]}, features);
-        if (options.level) std::erase_if(out[k], [](const PoseCandidate& c) { return tilts(c.T_target_source); });
+        out[k] = once([&, a = a, b = b] { return feature_key(scans[a], scans[b], options); },
+                      [&, a = a, b = b] { return search(a, b); });
       }
     });
     return out;
@@ -204,17 +280,31 @@ struct PairSearch::Impl {
         const auto [a, b] = pairs[k];
         const auto known = fitted.find(pairs[k]);
         if (known == fitted.end()) continue;
-        const bool seen = scans[a].sight.knows_sides() && scans[b].sight.knows_sides();
-        const NormalSides sides = seen ? NormalSides::kSeen : NormalSides::kUnknown;
-        const Cloud target = surfaces(scans[a], sides), source = surfaces(scans[b], sides);
-        const double voxel_m = scans[a].pyramid.level(0).voxel_size_m;
-        for (const Eigen::Isometry3d& T : known->second) {
-          const auto slid = slide_candidates(target, source, T, voxel_m, sides, kSlidesOfPose);
-          out[k].insert(out[k].end(), slid.begin(), slid.end());
-        }
+        out[k] = once([&, a = a, b = b] { return slide_key(scans[a], scans[b], known->second); },
+                      [&, a = a, b = b] { return slides_of(scans[a], scans[b], known->second); });
       }
     });
     return out;
+  }
+
+  static std::vector<PoseCandidate> slides_of(const PreparedScan& a, const PreparedScan& b,
+                                              const std::vector<Eigen::Isometry3d>& poses) {
+    const bool seen = a.sight.knows_sides() && b.sight.knows_sides();
+    const NormalSides sides = seen ? NormalSides::kSeen : NormalSides::kUnknown;
+    const Cloud target = surfaces(a, sides), source = surfaces(b, sides);
+    const double voxel_m = a.pyramid.level(0).voxel_size_m;
+    std::vector<PoseCandidate> out;
+    for (const Eigen::Isometry3d& T : poses) {
+      const auto slid = slide_candidates(target, source, T, voxel_m, sides, kSlidesOfPose);
+      out.insert(out.end(), slid.begin(), slid.end());
+    }
+    return out;
+  }
+
+  /// A search that is kept, where anything is.
+  template <typename MakeKey, typename Search>
+  std::vector<PoseCandidate> once(const MakeKey& key, const Search& search) const {
+    return steps != nullptr ? candidates_once(*steps, key(), search) : search();
   }
 
   /// Fits pairs at given poses where they overlap there; of each scan those with the `most_partners` it overlaps with
@@ -274,7 +364,7 @@ struct PairSearch::Impl {
           const auto [a, b] = pairs[open[i]];
           std::vector<PoseCandidate>& queue = queues[open[i]];
           while (!queue.empty() && !found[i]) {
-            found[i] = fit_candidate(scans[a], scans[b], queue.back(), options);
+            found[i] = fit_candidate_once(steps, scans[a], scans[b], queue.back(), options);
             queue.pop_back();
           }
         }
@@ -296,8 +386,8 @@ struct PairSearch::Impl {
 };
 
 PairSearch::PairSearch(const std::vector<PreparedScan>& scans, const LinkSearchOptions& options,
-                       const RunContext& context)
-    : impl_(new Impl(scans, options, context)) {}
+                       const RunContext& context, const StepStore* steps)
+    : impl_(new Impl(scans, options, context, steps)) {}
 PairSearch::~PairSearch() = default;
 
 void PairSearch::try_guesses(const std::vector<std::optional<Eigen::Isometry3d>>& T_common_scan, HypothesisSet& set) {

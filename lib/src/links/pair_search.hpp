@@ -11,13 +11,16 @@
 #include "links/link_fit.hpp"
 #include "scans/prepared_scan.hpp"
 #include "tcm_icp/core/run_context.hpp"
+#include "tcm_icp/steps/step_store.hpp"
 
 namespace tcm_icp {
 
 class PairSearch {
  public:
-  /// Keeps references: all three must outlive the search.
-  PairSearch(const std::vector<PreparedScan>& scans, const LinkSearchOptions& options, const RunContext& context);
+  /// Keeps references: all must outlive the search.
+  /// @param steps  what was searched and fitted before, for scans that have digests; nullptr: nothing is kept
+  PairSearch(const std::vector<PreparedScan>& scans, const LinkSearchOptions& options, const RunContext& context,
+             const StepStore* steps = nullptr);
   ~PairSearch();
 
   /// Whether two scans can overlap at all at a pose, as far as their extents tell.

@@ -57,7 +57,7 @@ class RobustPipeline {
     result_.coarse_voxel_m = resolutions_.coarse_m;
     result_.fine_voxel_m = resolutions_.fine_m;
     T_init_ = initial_local_poses(in_.initial_poses, in_.sampled, false);
-    result_.viewpoints = find_viewpoints(in_.sampled, in_.context);
+    result_.viewpoints = find_viewpoints(in_.sampled, in_.context, in_.steps);
     scans_ = prepare_scans(in_.sampled, resolutions_, in_.options.samples, in_.context);
     make_sights(result_.viewpoints, in_.context, scans_);
     for (std::size_t i = 0; i < size(); ++i) {
@@ -78,7 +78,7 @@ class RobustPipeline {
     }
     hypotheses_.emplace(resolutions_.coarse_m, median(noise_m), std::move(moments));
     const LinkSearchOptions options{in_.options.formulation, in_.options.lp, in_.options.level};
-    PairSearch search(scans_, options, in_.context);
+    PairSearch search(scans_, options, in_.context, in_.steps);
     std::vector<bool> wanted(size(), true);
     std::vector<std::size_t> groups(size());
     std::iota(groups.begin(), groups.end(), std::size_t{0});

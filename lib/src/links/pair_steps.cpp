@@ -1,0 +1,151 @@
+#include "links/pair_steps.hpp"
+
+#include "steps/do_once.hpp"
+
+namespace tcm_icp {
+
+// Each field by name, so that a field more does not compile before it is listed here.
+
+template <typename Record, MaybeConst<UpPair> T>
+void transfer(Record& record, T& value) {
+  auto& [target, source] = value;
+  record(target, source);
+}
+
+template <typename Record, MaybeConst<PairScreening> T>
+void transfer(Record& record, T& value) {
+  auto& [score, ups] = value;
+  record(score, ups);
+}
+
+template <typename Record, MaybeConst<PoseCandidate> T>
+void transfer(Record& record, T& value) {
+  auto& [T_target_source, method, score, margin] = value;
+  record(T_target_source, method, score, margin);
+}
+
+template <typename Record, MaybeConst<AlignmentEvidence> T>
+void transfer(Record& record, T& value) {
+  auto& [num_points, overlap, inlier_share, residual_m, tolerance_m, left, slide_m, left_across, num_across] = value;
+  record(num_points, overlap, inlier_share, residual_m, tolerance_m, left, slide_m, left_across, num_across);
+}
+
+template <typename Record, MaybeConst<FreeSpaceEvidence> T>
+void transfer(Record& record, T& value) {
+  auto& [num_points, num_violating, num_matches, num_opposed] = value;
+  record(num_points, num_violating, num_matches, num_opposed);
+}
+
+template <typename Record, MaybeConst<LinkMeasurements> T>
+void transfer(Record& record, T& value) {
+  auto& [evidence, other_overlap, other_inlier_share, free_space, sighted] = value;
+  record(evidence, other_overlap, other_inlier_share, free_space, sighted);
+}
+
+template <typename Record, MaybeConst<VerticalOptions> T>
+void transfer(Record& record, T& value) {
+  auto& [levelled, max_axes, min_area_ratio, max_roughness_ratio] = value;
+  record(levelled, max_axes, min_area_ratio, max_roughness_ratio);
+}
+
+template <typename Record, MaybeConst<HeightMapOptions> T>
+void transfer(Record& record, T& value) {
+  auto& [smoothing_cells, clip_sigma] = value;
+  record(smoothing_cells, clip_sigma);
+}
+
+template <typename Record, MaybeConst<CorrelationGrid> T>
+void transfer(Record& record, T& value) {
+  auto& [cell_m, size] = value;
+  record(cell_m, size);
+}
+
+template <typename Record, MaybeConst<HeightCorrelationOptions> T>
+void transfer(Record& record, T& value) {
+  auto& [cells_across, max_grid, heading_step_deg, min_shared_share, max_candidates, vertical, map, grid] = value;
+  record(cells_across, max_grid, heading_step_deg, min_shared_share, max_candidates, vertical, map, grid);
+}
+
+template <typename Record, MaybeConst<LpOptions> T>
+void transfer(Record& record, T& value) {
+  auto& [solver, max_pivots, max_seconds, max_columns, max_certificate_error] = value;
+  record(solver, max_pivots, max_seconds, max_columns, max_certificate_error);
+}
+
+template <typename Record, MaybeConst<L1FitOptions> T>
+void transfer(Record& record, T& value) {
+  auto& [lp, tie_breaking, seed, rank_tolerance] = value;
+  record(lp, tie_breaking, seed, rank_tolerance);
+}
+
+namespace {
+
+/// What a fit adds to the candidate it starts from.
+struct Fit {
+  Eigen::Isometry3d T_a_b = Eigen::Isometry3d::Identity();
+  LinkMeasurements measurements;
+};
+
+template <typename Record, MaybeConst<Fit> T>
+void transfer(Record& record, T& value) {
+  auto& [T_a_b, measurements] = value;
+  record(T_a_b, measurements);
+}
+
+}  // namespace
+
+StepKey height_map_key(const PreparedScan& target, const PreparedScan& source, const std::vector<UpPair>& ups,
+                       const HeightCorrelationOptions& options) {
+  return step_key("height-maps", target.digest, source.digest, ups, options);
+}
+
+StepKey feature_key(const PreparedScan& target, const PreparedScan& source, const LinkSearchOptions& options) {
+  return step_key("features", target.digest, source.digest, options.level);
+}
+
+StepKey slide_key(const PreparedScan& target, const PreparedScan& source, const std::vector<Eigen::Isometry3d>& from) {
+  return step_key("slides", target.digest, source.digest, from);
+}
+
+StepKey screening_key(const std::vector<PreparedScan>& scans, const HeightCorrelationOptions& options) {
+  std::vector<std::string> digests;
+  for (const auto& scan : scans) digests.push_back(scan.digest);
+  return step_key("rankings", digests, options);
+}
+
+std::optional<std::vector<PoseCandidate>> find_candidates(const StepStore& store, const StepKey& key) {
+  return find_step<std::vector<PoseCandidate>>(store, key);
+}
+
+void save_candidates(const StepStore& store, const StepKey& key, const std::vector<PoseCandidate>& candidates,
+                     double seconds) {
+  save_step(store, key, candidates, seconds);
+}
+
+std::vector<PoseCandidate> candidates_once(const StepStore& store, const StepKey& key,
+                                           const std::function<std::vector<PoseCandidate>()>& search) {
+  return do_once<std::vector<PoseCandidate>>(store, key, search);
+}
+
+std::vector<PairScreening> screenings_once(const StepStore& store, const StepKey& key,
+                                           const std::function<std::vector<PairScreening>()>& screen) {
+  return do_once<std::vector<PairScreening>>(store, key, screen);
+}
+
+std::optional<LinkHypothesis> fit_candidate_once(const StepStore* store, const PreparedScan& target,
+                                                 const PreparedScan& source, const PoseCandidate& candidate,
+                                                 const LinkSearchOptions& options) {
+  if (store == nullptr) return fit_candidate(target, source, candidate, options);
+  const auto& [formulation, lp, level] = options;
+  const StepKey key = step_key("fits", target.digest, source.digest, candidate.T_target_source,
+                               candidate.method == CoarseMethod::kSlide, formulation, lp);
+  const auto fit = do_once<std::optional<Fit>>(*store, key, [&]() -> std::optional<Fit> {
+    const auto found = fit_candidate(target, source, candidate, options);
+    if (!found) return std::nullopt;
+    return Fit{found->T_a_b, found->measurements};
+  });
+  if (!fit) return std::nullopt;
+  return LinkHypothesis{fit->T_a_b, candidate, fit->measurements};
+}
+
+}  // namespace tcm_icp
