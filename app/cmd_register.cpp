@@ -21,14 +21,14 @@
 namespace tcm_icp::app {
 namespace {
 
-void check_number(std::size_t num_scans) {
+void check_number(std::size_t num_scans, std::string_view command) {
   if (num_scans >= 2) return;
   throw InvalidOptions("registration needs at least two scans, not " + std::to_string(num_scans) +
-                       "; name the files: tcm-icp register SCAN... --out DIR");
+                       "; name the files: tcm-icp " + std::string(command) + " SCAN... --out DIR");
 }
 
-void check_usage(const RegisterOptions& o) {
-  if (o.scans.empty()) check_number(0);
+void check_usage(const RegisterOptions& o, std::string_view command) {
+  if (o.scans.empty()) check_number(0, command);
   if (o.method == Method::kFeatures && !o.initial_poses.empty()) {
     throw InvalidOptions("--init: --method features finds its poses by itself; leave --init out, or use --method icp");
   }
@@ -51,22 +51,15 @@ PipelineResult run_method(const RegisterOptions& o, const std::vector<std::files
 
 }  // namespace
 
-int cmd_register(const Arguments& arguments) {
-  const RegisterOptions o = parse_register_options(arguments);
-  if (o.help || o.help_all) {
-    print_register_help(o.help_all ? Help::kAll : Help::kUsedMost, std::cout);
-    return kSuccess;
-  }
-  if (o.print_config) {
-    print_register_config(o, std::cout);
-    return kSuccess;
-  }
-  check_usage(o);
+namespace {
+
+int run_registration(const RegisterOptions& o, std::string_view command, const Arguments& arguments) {
+  check_usage(o, command);
   if (o.method != Method::kTcm) check_built_in(o.method);
   const std::string started = time_now();
   const ScanInputs inputs = find_scans(o.scans, parse_bin(o.bin));
   const auto paths = with_units(inputs.scans, o.units);
-  check_number(paths.size());
+  check_number(paths.size(), command);
   check_output_folder(o.out, o.force);
   const InitialPoses guess = read_guess(o, paths);
   Survey survey = read_survey(o, paths);
@@ -81,7 +74,7 @@ int cmd_register(const Arguments& arguments) {
   clouds.crs_text = epsg_text(survey.crs).value_or("");
   PipelineResult result = run_method(o, paths, guess, survey, context);
   write_result(o.out, o.force, paths, result, o.pipeline, clouds, context,
-               {kVersion, command_line("register", arguments), o.initial_poses, started, o.report});
+               {kVersion, command_line(command, arguments), o.initial_poses, started, o.report});
   console.finish();
   if (!o.quiet) {
     const bool verified = o.method == Method::kTcm && o.pipeline.profile == Profile::kRobust;
@@ -90,6 +83,31 @@ int cmd_register(const Arguments& arguments) {
     std::cerr << register_summary(result, verified, std::filesystem::path(o.out) / "report.html") << '\n';
   }
   return result.all_registered() ? kSuccess : kSomeUnregistered;
+}
+
+}  // namespace
+
+int cmd_register(const Arguments& arguments) {
+  const RegisterOptions o = parse_register_options(arguments);
+  if (o.help || o.help_all) {
+    print_register_help(o.help_all ? Help::kAll : Help::kUsedMost, std::cout);
+    return kSuccess;
+  }
+  if (o.print_config) {
+    print_register_config(o, std::cout);
+    return kSuccess;
+  }
+  return run_registration(o, "register", arguments);
+}
+
+int cmd_solve(const Arguments& arguments) {
+  StepOptions o = parse_step_options("solve", arguments);
+  if (o.help) {
+    print_step_help("solve", std::cout);
+    return kSuccess;
+  }
+  o.clouds.merged = o.clouds.each = false;
+  return run_registration(o, "solve", arguments);
 }
 
 }  // namespace tcm_icp::app

@@ -69,15 +69,22 @@ enum class Tried : char { kNothing, kHeightMaps, kFeatures, kSlides };
 }  // namespace
 
 struct PairSearch::Impl {
-  Impl(const std::vector<PreparedScan>& all, const LinkSearchOptions& o, const RunContext& c, const StepStore* s)
-      : scans(all), options(o), context(c), steps(s), tried(all.size() * all.size(), Tried::kNothing) {}
+  Impl(const std::vector<PreparedScan>& all, const LinkSearchOptions& o, const RunContext& c, KeptSearches k)
+      : scans(all),
+        options(o),
+        context(c),
+        kept(std::move(k)),
+        steps(kept.store),
+        tried(all.size() * all.size(), Tried::kNothing) {}
 
   const std::vector<PreparedScan>& scans;
   const LinkSearchOptions& options;
   const RunContext& context;
-  const StepStore* steps;
-  std::vector<Tried> tried;             // by pair, a * n + b
-  std::vector<PairScreening> screened;  // by pair, the same
+  const KeptSearches kept;
+  const StepStore* steps;                     // that of `kept`
+  std::optional<CorrelationGrid> given_grid;  // of height maps, for pairs of a larger set
+  std::vector<Tried> tried;                   // by pair, a * n + b
+  std::vector<PairScreening> screened;        // by pair, the same
   std::vector<std::vector<std::size_t>> partners;
   std::vector<std::size_t> reach;  // how many of them were asked for, of each scan
   FeatureAlignmentOptions features;
@@ -126,16 +133,13 @@ struct PairSearch::Impl {
     reach.assign(n, kFirstPartners);
     screened.resize(n * n);
     context.report("ranking pairs", 0, n * (n - 1) / 2);
-    std::vector<const Cloud*> clouds;
-    for (const auto& s : scans) clouds.push_back(&s.fine.cloud);
     std::vector<ScanPair> all;
     for (std::size_t a = 0; a < n; ++a) {
       for (std::size_t b = a + 1; b < n; ++b) all.push_back({a, b});
     }
     HeightCorrelationOptions screening = screening_options();
     screening.vertical.levelled = options.level;
-    const auto screen = [&] { return screen_by_height_maps(clouds, all, screening, context.num_threads); };
-    auto screenings = steps != nullptr ? screenings_once(*steps, screening_key(scans, screening), screen) : screen();
+    auto screenings = screen(all, screening);
     for (std::size_t k = 0; k < all.size(); ++k) screened[all[k].target * n + all[k].source] = std::move(screenings[k]);
     for (std::size_t i = 0; i < n; ++i) {
       for (std::size_t j = 0; j < n; ++j) {
@@ -146,6 +150,18 @@ struct PairSearch::Impl {
         return a != b ? a > b : x < y;
       });
     }
+  }
+
+  std::vector<PairScreening> screen(const std::vector<ScanPair>& all, HeightCorrelationOptions screening) const {
+    if (steps == nullptr) return screen_by_height_maps(all_clouds(), all, screening, context.num_threads);
+    screening.grid = grid_once(*steps, scans, kept.base, screening, context.num_threads);
+    return screenings_once(*steps, scans, kept.base, screening, context.num_threads);
+  }
+
+  std::vector<const Cloud*> all_clouds() const {
+    std::vector<const Cloud*> out;
+    for (const auto& scan : scans) out.push_back(&scan.fine.cloud);
+    return out;
   }
 
   /// Twice as many partners for the wanted scans; false where they had all, or as many as there may be.
@@ -163,7 +179,7 @@ struct PairSearch::Impl {
   std::vector<std::vector<PoseCandidate>> by_height_maps(const ScanPairs& pairs) const {
     if (steps == nullptr) return search_height_maps(pairs, height_map_options());
     HeightCorrelationOptions correlation = height_map_options();
-    correlation.grid = choose_correlation_grid(clouds_of(pairs), correlation, context.num_threads);
+    correlation.grid = grid_of(pairs);
     std::vector<std::vector<PoseCandidate>> out(pairs.size());
     std::vector<std::size_t> missing;
     for (std::size_t k = 0; k < pairs.size(); ++k) {
@@ -192,6 +208,17 @@ struct PairSearch::Impl {
     HeightCorrelationOptions correlation;
     correlation.vertical.levelled = options.level;
     return correlation;
+  }
+
+  /// That of the set where all of it is compared.
+  CorrelationGrid grid_of(const ScanPairs& pairs) const {
+    if (given_grid) return *given_grid;
+    const std::vector<const Cloud*> clouds = clouds_of(pairs);
+    const HeightCorrelationOptions correlation = height_map_options();
+    if (steps == nullptr || clouds.size() < scans.size()) {
+      return choose_correlation_grid(clouds, correlation, context.num_threads);
+    }
+    return grid_once(*steps, scans, kept.base, correlation, context.num_threads);
   }
 
   StepKey height_map_key_of(const ScanPairs::value_type& pair, const HeightCorrelationOptions& correlation) const {
@@ -386,8 +413,8 @@ struct PairSearch::Impl {
 };
 
 PairSearch::PairSearch(const std::vector<PreparedScan>& scans, const LinkSearchOptions& options,
-                       const RunContext& context, const StepStore* steps)
-    : impl_(new Impl(scans, options, context, steps)) {}
+                       const RunContext& context, KeptSearches kept)
+    : impl_(new Impl(scans, options, context, std::move(kept))) {}
 PairSearch::~PairSearch() = default;
 
 void PairSearch::try_guesses(const std::vector<std::optional<Eigen::Isometry3d>>& T_common_scan, HypothesisSet& set) {
@@ -400,6 +427,37 @@ void PairSearch::try_guesses(const std::vector<std::optional<Eigen::Isometry3d>>
     }
   }
   impl_->try_poses(poses, CoarseMethod::kGuess, poses.size(), set);
+}
+
+FirstPairs PairSearch::first_pairs() {
+  const std::size_t n = impl_->scans.size();
+  std::vector<std::size_t> groups(n);
+  std::iota(groups.begin(), groups.end(), std::size_t{0});
+  impl_->rank_partners();
+  FirstPairs out;
+  out.pairs = impl_->pairs(Tried::kNothing, std::vector<bool>(n, true), groups);
+  for (const auto& [a, b] : out.pairs) out.ups.push_back(impl_->screening_of(a, b).ups);
+  out.grid = impl_->grid_of(out.pairs);
+  return out;
+}
+
+void PairSearch::match(const FirstPairs& first) {
+  impl_->given_grid = first.grid;
+  impl_->screened.resize(impl_->scans.size() * impl_->scans.size());
+  for (std::size_t k = 0; k < first.pairs.size(); ++k) {
+    const auto [a, b] = first.pairs[k];
+    impl_->screened[a * impl_->scans.size() + b].ups = first.ups[k];
+  }
+  const auto candidates = impl_->by_height_maps(first.pairs);
+  impl_->context.report("fitting", 0, first.pairs.size());
+  parallel_for(impl_->context.num_threads, first.pairs.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      const PreparedScan &a = impl_->scans[first.pairs[k].first], &b = impl_->scans[first.pairs[k].second];
+      for (const PoseCandidate& candidate : in_order_of_promise(a, b, candidates[k])) {
+        if (fit_candidate_once(impl_->steps, a, b, candidate, impl_->options)) break;
+      }
+    }
+  });
 }
 
 bool PairSearch::may_overlap(std::size_t a, std::size_t b, const Eigen::Isometry3d& T_a_b) const {

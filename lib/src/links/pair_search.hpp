@@ -4,24 +4,46 @@
 #include <cstddef>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "inference/implied_poses.hpp"
 #include "links/hypotheses.hpp"
 #include "links/link_fit.hpp"
 #include "scans/prepared_scan.hpp"
+#include "tcm_icp/coarse/height_correlation.hpp"
 #include "tcm_icp/core/run_context.hpp"
 #include "tcm_icp/steps/step_store.hpp"
 
 namespace tcm_icp {
 
+/// What was searched and fitted before, for scans that have digests.
+struct KeptSearches {
+  const StepStore* store = nullptr;  ///< nullptr: nothing is kept
+  /// Digests of the scans, in their order, of a set whose scans are among these: what was found of its pairs holds.
+  std::vector<std::string> base;
+};
+
+/// The pairs that every search begins with, each of which can be searched by itself.
+struct FirstPairs {
+  ScanPairs pairs;
+  std::vector<std::vector<UpPair>> ups;  ///< of each pair, to search
+  CorrelationGrid grid;                  ///< of the height maps
+};
+
 class PairSearch {
  public:
   /// Keeps references: all must outlive the search.
-  /// @param steps  what was searched and fitted before, for scans that have digests; nullptr: nothing is kept
   PairSearch(const std::vector<PreparedScan>& scans, const LinkSearchOptions& options, const RunContext& context,
-             const StepStore* steps = nullptr);
+             KeptSearches kept = {});
   ~PairSearch();
+
+  /// What extend() tries first where all scans are wanted.
+  FirstPairs first_pairs();
+
+  /// Does the steps of pairs that first_pairs() of a larger set gave, and keeps them: each is searched, and its most
+  /// promising candidate fitted. @pre there is a store
+  void match(const FirstPairs& first);
 
   /// Whether two scans can overlap at all at a pose, as far as their extents tell.
   bool may_overlap(std::size_t a, std::size_t b, const Eigen::Isometry3d& T_a_b) const;

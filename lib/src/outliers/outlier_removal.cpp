@@ -93,9 +93,8 @@ OutlierRuleState OutlierRule::state() const {
   out.centroids = impl_->centroid_points;
   out.threshold_m = impl_->threshold_m;
   out.voxels.assign(impl_->outlier_voxels.begin(), impl_->outlier_voxels.end());
-  std::sort(out.voxels.begin(), out.voxels.end(), [](const VoxelKey& a, const VoxelKey& b) {
-    return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
-  });
+  std::sort(out.voxels.begin(), out.voxels.end(),
+            [](const VoxelKey& a, const VoxelKey& b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); });
   out.voxel_size_m = impl_->voxel_size_m;
   return out;
 }

@@ -55,8 +55,8 @@ PipelineResult Pipeline::run(std::span<const ScanInput> inputs, const InitialPos
   result.warnings = warn_of_units(result.scans, context);
   const InitialPoses guesses = in_order(initial_poses, order);
   result.reference = static_cast<std::size_t>(std::find(order.begin(), order.end(), named) - order.begin());
-  (paper ? run_paper_pipeline : run_robust_pipeline)({sampled, files, guesses, survey, options, context, clock, steps_.get()},
-                                                     result);
+  (paper ? run_paper_pipeline : run_robust_pipeline)(
+      {sampled, files, guesses, survey, options, context, clock, steps_.get()}, result);
   clock.end();
   restore_order(order, result);
   for (std::size_t i = 0; i < inputs.size(); ++i) result.poses[i].unit = result.scans[i].unit;

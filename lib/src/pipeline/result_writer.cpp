@@ -87,14 +87,17 @@ void write_result(const fs::path& folder, bool overwrite, std::span<const ScanIn
   OutputFolder output(folder, overwrite, kMarker);
   StageClock clock(result.stages);
   clock.begin("write");
-  SceneSampler sampler = scene_sampler(result, description.report.view_points);
-  std::vector<SectionCut> sections = choose_sections(result);
+  const bool is_seen = clouds.merged || clouds.each;
+  SceneSampler sampler = scene_sampler(result, is_seen ? description.report.view_points : 0);
+  std::vector<SectionCut> sections = is_seen ? choose_sections(result) : std::vector<SectionCut>();
   SectionCutter cutter(sections, result);
-  write_registered_clouds(output.work(), inputs, result, clouds, context, kMostVoxels,
-                          [&](std::size_t i, std::span<const Eigen::Vector3d> points) {
-                            sampler.add(i, points, result.scans[i].origin);
-                            cutter.add(i, points);
-                          });
+  const auto watch = [&](std::size_t i, std::span<const Eigen::Vector3d> points) {
+    sampler.add(i, points, result.scans[i].origin);
+    cutter.add(i, points);
+  };
+  if (is_seen) {
+    write_registered_clouds(output.work(), inputs, result, clouds, context, kMostVoxels, watch);
+  }
   const Scene scene = make_scene(result, sampler.take(view_cells(result), context.num_threads), context.num_threads);
   write_pose_file(output.work() / "poses.json",
                   {result.scans[result.reference].file, result.poses, result.survey.defined_by,

@@ -164,9 +164,10 @@ std::vector<PreparedScan> prepare_scans(std::vector<SampledScan>& scans, const R
   parallel_for(context.num_threads, scans.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       prepared[i] = prepare_scan(scans[i], resolutions, options, context.seed);
-      if (!scans[i].digest.empty()) prepared[i]->digest = prepared_digest(scans[i], resolutions, options, context.seed);
       scans[i].scan.cloud = Cloud();
       scans[i].surface_normals = Points();
+      if (scans[i].digest.empty()) continue;
+      prepared[i]->digest = prepared_digest(scans[i].digest, resolutions, options, context.seed);
     }
   });
   std::vector<PreparedScan> out;

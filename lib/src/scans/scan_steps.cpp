@@ -126,10 +126,10 @@ std::optional<Viewpoint> find_viewpoint_once(const StepStore& store, const Sampl
                                            [&] { return find_viewpoint_of(scan, seed); });
 }
 
-std::string prepared_digest(const SampledScan& scan, const Resolutions& resolutions, const SampleSizes& sizes,
+std::string prepared_digest(const std::string& sample, const Resolutions& resolutions, const SampleSizes& sizes,
                             std::uint64_t seed) {
   const auto& [coarse_points, fine_points, held_out_points] = sizes;
-  return step_key("prepared", scan.digest, resolutions.coarse_m, resolutions.fine_m, coarse_points, fine_points,
+  return step_key("prepared", sample, resolutions.coarse_m, resolutions.fine_m, coarse_points, fine_points,
                   held_out_points, seed)
       .digest;
 }

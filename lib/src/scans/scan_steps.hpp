@@ -30,7 +30,8 @@ SampledScan sample_scan_once(const StepStore& store, const ScanInput& input, con
 std::optional<Viewpoint> find_viewpoint_once(const StepStore& store, const SampledScan& scan, std::uint64_t seed);
 
 /// Check sum over all that a prepared scan and its sight depend on.
-std::string prepared_digest(const SampledScan& scan, const Resolutions& resolutions, const SampleSizes& sizes,
+/// @param sample  digest of the sample
+std::string prepared_digest(const std::string& sample, const Resolutions& resolutions, const SampleSizes& sizes,
                             std::uint64_t seed);
 
 }  // namespace tcm_icp

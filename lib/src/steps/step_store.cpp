@@ -127,8 +127,7 @@ void write_whole(const fs::path& path, std::string_view content, const fs::path&
   const fs::path unfinished = beside / (process_name() + "-" + std::to_string(next++));
   FileDescriptor file(open(unfinished.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
   if (!file.is_open()) refuse(unfinished, reason());
-  const bool is_written =
-      file.write_all(content) && (content.size() < kSynced || file.sync()) && file.finish();
+  const bool is_written = file.write_all(content) && (content.size() < kSynced || file.sync()) && file.finish();
   std::error_code error;
   if (is_written) {
     fs::rename(unfinished, path, error);

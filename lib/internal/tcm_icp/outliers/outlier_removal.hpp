@@ -45,10 +45,10 @@ struct OutlierSummary {
 /// A rule as plain values, to be kept.
 struct OutlierRuleState {
   bool keeps_all = true;
-  Points centroids;                  ///< kKMeans; empty for the others
-  double threshold_m = 0;            ///< kKMeans
-  std::vector<VoxelKey> voxels;      ///< kDistance, kLof: whose points are outliers, in ascending order
-  double voxel_size_m = 0;           ///< kDistance, kLof
+  Points centroids;              ///< kKMeans; empty for the others
+  double threshold_m = 0;        ///< kKMeans
+  std::vector<VoxelKey> voxels;  ///< kDistance, kLof: whose points are outliers, in ascending order
+  double voxel_size_m = 0;       ///< kDistance, kLof
   OutlierSummary summary;
 };
 

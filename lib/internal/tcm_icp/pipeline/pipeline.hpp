@@ -17,7 +17,8 @@ namespace tcm_icp {
 
 class Pipeline {
  public:
-  /// @param steps  keeps what is done on the way and has what was done before (robust profile); nullptr: nothing is kept
+  /// @param steps  keeps what is done on the way and has what was done before (robust profile); nullptr: nothing is
+  /// kept
   /// @throws InvalidOptions
   explicit Pipeline(PipelineOptions options, std::shared_ptr<const StepStore> steps = nullptr);
 
