@@ -39,9 +39,9 @@ void check_usage(const RegisterOptions& o, std::string_view command) {
 }
 
 PipelineResult run_method(const RegisterOptions& o, const std::vector<std::filesystem::path>& paths,
-                          const InitialPoses& guess, const Survey& survey, const RunContext& context) {
+                          const InitialPoses& guess, const Survey& survey, const RunContext& context,
+                          const std::shared_ptr<const StepStore>& steps) {
   if (o.method == Method::kTcm) {
-    const auto steps = open_work_folder(o.work, context);
     PipelineResult result = Pipeline(o.pipeline, steps).run(paths, guess, context, survey);
     if (steps) report_steps(*steps, context);
     return result;
@@ -72,9 +72,10 @@ int run_registration(const RegisterOptions& o, std::string_view command, const A
 
   OutputOptions clouds = o.clouds;
   clouds.crs_text = epsg_text(survey.crs).value_or("");
-  PipelineResult result = run_method(o, paths, guess, survey, context);
+  const auto steps = open_work_folder(o.work, context);
+  PipelineResult result = run_method(o, paths, guess, survey, context, steps);
   write_result(o.out, o.force, paths, result, o.pipeline, clouds, context,
-               {kVersion, command_line(command, arguments), o.initial_poses, started, o.report});
+               {kVersion, command_line(command, arguments), o.initial_poses, started, o.report}, steps.get());
   console.finish();
   if (!o.quiet) {
     const bool verified = o.method == Method::kTcm && o.pipeline.profile == Profile::kRobust;

@@ -486,13 +486,20 @@ StepOptions parse_step_options(std::string_view command, const Arguments& argume
 
 void print_step_help(std::string_view command, std::ostream& out) {
   StepOptions o;
+  Choices choices(o.pipeline);
+  const po::options_description file_options = configurable(o, choices);
+  po::options_description of_registration("Of the registration, among others");
+  for (const char* name : {"bin", "unit", "seed", "threads"}) {
+    of_registration.add(boost::make_shared<po::option_description>(file_options.find(name, false)));
+  }
   std::string config;
   const auto* const step =
       std::find_if(kSteps.begin(), kSteps.end(), [&](const StepText& s) { return s.command == command; });
   out << "Usage: tcm-icp " << step->usage << "\n\n"
       << step->text
       << "\nAll steps of a registration take the same options as 'tcm-icp register', best by one --config file.\n\n"
-      << step_command_line(command, o, config)
+      << step_command_line(command, o, config) << '\n'
+      << of_registration
       << "\n'tcm-icp register --help-all' lists the other options; docs/cluster.md shows how steps are run.\n";
 }
 

@@ -54,6 +54,42 @@ TEST_F(WorkFolder, GivesTheSameBitsAsNoneAndDoesNothingASecondTime) {
   EXPECT_EQ(steps_done(), done);
 }
 
+TEST_F(WorkFolder, KeepsOutliersOfEveryMethod) {
+  for (const char* method : {"distance", "lof", "none"}) {
+    const std::string name(method);
+    const Words options{"--outliers", method};
+    ASSERT_EQ(register_to("plain-" + name, options).exit_code, 0);
+    ASSERT_EQ(register_to("kept-" + name, options + Words{"--work", "work"}).exit_code, 0);
+    ASSERT_EQ(register_to("again-" + name, options + Words{"--work", "work"}).exit_code, 0);
+    expect_same_result("plain-" + name, "kept-" + name);
+    expect_same_result("plain-" + name, "again-" + name);
+  }
+}
+
+TEST_F(WorkFolder, KeepsResolutionsWhereAScanIsAdded) {
+  const Words work{"--work", "work"};
+  ASSERT_EQ(run(Words{"register", "--out", "five"} + town_scans({0, 1, 2, 3, 4}) + work + kSmall).exit_code, 0);
+  const auto before = steps_done();
+  ASSERT_EQ(register_to("six", work).exit_code, 0);
+  const auto five = read_json(folder() / "five/report.json"), six = read_json(folder() / "six/report.json");
+  EXPECT_EQ(five["coarse_voxel_m"], six["coarse_voxel_m"]);
+  std::string said;
+  for (const auto& warning : six["warnings"]) said += warning;
+  EXPECT_NE(said.find("the resolutions are kept from the 5 scans that"), std::string::npos) << said;
+  std::map<std::string, int> kinds;
+  for (const auto& file : fs::directory_iterator(folder() / "work/log")) {
+    std::istringstream lines(read_text(file.path()));
+    std::string time, kind, rest;
+    while (lines >> time >> kind && std::getline(lines, rest)) ++kinds[kind];
+  }
+  EXPECT_EQ(kinds["samples"], 6);
+  EXPECT_EQ(kinds["height-maps"], 15);  // ten pairs of five scans, and those of the sixth
+  for (const auto& [key, times] : steps_done()) EXPECT_EQ(times, 1) << key;
+  // Without the work folder's past the set has its own resolutions.
+  ASSERT_EQ(register_to("fresh", {}).exit_code, 0);
+  EXPECT_NE(read_json(folder() / "fresh/report.json")["coarse_voxel_m"], six["coarse_voxel_m"]);
+}
+
 TEST_F(WorkFolder, GoesOnWhereARunWasKilled) {
   ASSERT_EQ(register_to("plain", {}).exit_code, 0);
   std::mt19937 random(1);

@@ -37,7 +37,7 @@ constexpr int kMaxFits = 3;
 constexpr std::size_t kOverlapLevel = 2;
 constexpr double kOverlapInVoxels = 2;
 // Pairs whose height maps are compared together: they share transforms; what is cut off is done again.
-constexpr std::size_t kBlock = 64;
+constexpr std::size_t kBlock = 100;
 
 // Each of the two may be off the vertical.
 bool tilts(const Eigen::Isometry3d& T) { return T.linear()(2, 2) < std::cos(2 * kMaxLevelTilt_deg * EIGEN_PI / 180); }
@@ -187,9 +187,11 @@ struct PairSearch::Impl {
       if (known) out[k] = std::move(*known);
       if (!known) missing.push_back(k);
     }
-    for (std::size_t first = 0; first < missing.size(); first += kBlock) {
+    const std::size_t num_blocks = (missing.size() + kBlock - 1) / kBlock;
+    for (std::size_t number = 0; number < num_blocks; ++number) {
+      const std::size_t first = missing.size() * number / num_blocks;
+      const std::size_t size = missing.size() * (number + 1) / num_blocks - first;
       context.report("comparing height maps", pairs.size() - missing.size() + first, pairs.size());
-      const std::size_t size = std::min(kBlock, missing.size() - first);
       ScanPairs block;
       for (std::size_t i = first; i < first + size; ++i) block.push_back(pairs[missing[i]]);
       const auto start = std::chrono::steady_clock::now();

@@ -3,6 +3,7 @@
 #include <unordered_map>
 
 #include "steps/do_once.hpp"
+#include "steps/key_parts.hpp"
 
 namespace tcm_icp {
 
@@ -66,18 +67,6 @@ template <typename Record, MaybeConst<HeightCorrelationOptions> T>
 void transfer(Record& record, T& value) {
   auto& [cells_across, max_grid, heading_step_deg, min_shared_share, max_candidates, vertical, map, grid] = value;
   record(cells_across, max_grid, heading_step_deg, min_shared_share, max_candidates, vertical, map, grid);
-}
-
-template <typename Record, MaybeConst<LpOptions> T>
-void transfer(Record& record, T& value) {
-  auto& [solver, max_pivots, max_seconds, max_columns, max_certificate_error] = value;
-  record(solver, max_pivots, max_seconds, max_columns, max_certificate_error);
-}
-
-template <typename Record, MaybeConst<L1FitOptions> T>
-void transfer(Record& record, T& value) {
-  auto& [lp, tie_breaking, seed, rank_tolerance] = value;
-  record(lp, tie_breaking, seed, rank_tolerance);
 }
 
 namespace {

@@ -12,11 +12,11 @@
 #include "inference/cuts.hpp"
 #include "inference/implied_poses.hpp"
 #include "links/pair_search.hpp"
-#include "merging/merging.hpp"
 #include "pipeline/kept_set.hpp"
 #include "pipeline/pipeline_input.hpp"
 #include "pipeline/scan_set.hpp"
 #include "pipeline/settled_component.hpp"
+#include "pipeline/solve_steps.hpp"
 #include "pipeline/survey_frame.hpp"
 #include "scans/scan_sight.hpp"
 #include "tcm_icp/core/rigid_transform.hpp"
@@ -77,7 +77,7 @@ class RobustPipeline {
     kept_.base = prepared_digests(kept.base, kept.resolutions, in_.options.samples, in_.context.seed);
     std::ostringstream said;
     said << "the resolutions are kept from the " << kept.base.size()
-         << " of the scans that were registered first in the work folder: " << kept.resolutions.coarse_m << " m and "
+         << " scans that were registered before in the work folder: " << kept.resolutions.coarse_m << " m and "
          << kept.resolutions.fine_m << " m, where all scans would give " << resolutions_.coarse_m << " m and "
          << resolutions_.fine_m << " m";
     resolutions_ = kept.resolutions;
@@ -166,12 +166,12 @@ class RobustPipeline {
           change_reference(component, result_.reference);
         }
         in_.clock.begin("merge");
-        const auto records = merge_in_tcm_order(scans_, graph, in_.options.merging(), in_.context, component);
+        const auto records = merge_once(in_.steps, scans_, graph, in_.options.merging(), in_.context, component);
         for (const MergeRecord& r : records) in_.context.debug(in_.files[r.scan] + " merged: " + r.reason);
         result_.merges.insert(result_.merges.end(), records.begin(), records.end());
         in_.clock.begin("adjust and verify");
-        settled_.push_back(
-            settle(scans_, *hypotheses_, graph, resolutions_, in_.options, in_.context, std::move(component)));
+        settled_.push_back(settle(scans_, *hypotheses_, graph, resolutions_, in_.options, in_.context,
+                                  std::move(component), in_.steps));
         for (std::size_t i = 0; i < size(); ++i) {
           const Decision& decision = settled_.back().decisions[i];
           if (settled_.back().measurements[i] && !decision.accepted()) {

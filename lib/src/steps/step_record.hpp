@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "tcm_icp/core/cloud.hpp"
@@ -57,6 +58,11 @@ class RecordWriter {
   template <typename T, std::size_t N>
   void put(const std::array<T, N>& values) {
     for (const auto& value : values) put(value);
+  }
+  template <typename A, typename B>
+  void put(const std::pair<A, B>& value) {
+    put(value.first);
+    put(value.second);
   }
   template <typename T>
   void put(const std::optional<T>& value) {
@@ -127,6 +133,11 @@ class RecordReader {
   template <typename T, std::size_t N>
   void get(std::array<T, N>& values) {
     for (auto& value : values) get(value);
+  }
+  template <typename A, typename B>
+  void get(std::pair<A, B>& value) {
+    get(value.first);
+    get(value.second);
   }
   template <typename T>
   void get(std::optional<T>& value) {
