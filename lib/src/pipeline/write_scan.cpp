@@ -33,10 +33,12 @@ std::size_t place_of(const fs::path& scan, const PoseFile& poses) {
       "; name the file as when the poses were found");
 }
 
-/// A folder beside the result for the unfinished file, gone at the end.
+/// A folder in the result for the unfinished file, gone at the end. Machines may give processes one number, but not one
+/// scan.
 class Unfinished {
  public:
-  explicit Unfinished(const fs::path& folder) : path_(folder / (".write-" + std::to_string(getpid()))) {
+  Unfinished(const fs::path& folder, std::size_t scan)
+      : path_(folder / (".write-" + std::to_string(scan) + "-" + std::to_string(getpid()))) {
     std::error_code error;
     fs::create_directories(path_, error);
     if (error) throw OutputError(path_, "cannot be made: " + error.message(), "check the rights of the folder");
@@ -78,7 +80,7 @@ std::optional<fs::path> write_scan(const StepStore& steps, const fs::path& folde
   result.survey.has_frame = !poses.frame.empty();
   result.survey.defined_by = poses.frame;
   result.survey.crs = poses.crs;
-  const Unfinished unfinished(folder);
+  const Unfinished unfinished(folder, place);
   const fs::path file = write_registered_scan(unfinished.path(), input, place, result, clouds, context);
   std::error_code error;
   fs::create_directories((folder / file).parent_path(), error);
