@@ -320,8 +320,8 @@ po::options_description command_line_only(RegisterOptions& o, std::string& confi
   po::options_description general("Output and control");
   general.add_options()("out,o", po::value(&o.out), "folder for the result; must not exist, or --force")(
       "force", po::bool_switch(&o.force), "replace an earlier result")(
-      "work", po::value(&o.work), "folder that keeps finished steps: runs go on where they were")(
-      "config", po::value(&config), "read options from FILE (name = value); the command line wins")(
+      "work", po::value(&o.work), "folder that keeps finished steps, to go on from")(
+      "config", po::value(&config), "read options from FILE (name = value)")(
       "print-config", po::bool_switch(&o.print_config), "write the effective options to stdout and stop")(
       "quiet,q", po::bool_switch(&o.quiet), kQuietHelp)("verbose,v", po::bool_switch(&o.verbose),
                                                         "say what happens to each scan")(

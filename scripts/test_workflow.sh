@@ -75,6 +75,9 @@ for kind in samples viewpoints; do
   number=$(cut -f2 grown/log/*.tsv | grep -c "^$kind$")
   [[ $number == "${#scans[@]}" ]] || { echo "FAILED: $number $kind of ${#scans[@]} scans" && exit 1; }
 done
+# Pairs are named by both scans: none was searched on two grids.
+number=$(cut -f2 grown/log/*.tsv | grep -c "^height-maps$")
+((number <= ${#scans[@]} * last / 2)) || { echo "FAILED: $number pairs of ${#scans[@]} scans" && exit 1; }
 echo "one scan more: $(($(num_done grown) - sum)) steps, after $sum ($before)"
 
 cat >project.yaml <<EOF

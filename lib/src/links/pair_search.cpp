@@ -81,10 +81,10 @@ struct PairSearch::Impl {
   const LinkSearchOptions& options;
   const RunContext& context;
   const KeptSearches kept;
-  const StepStore* steps;                     // that of `kept`
-  std::optional<CorrelationGrid> given_grid;  // of height maps, for pairs of a larger set
-  std::vector<Tried> tried;                   // by pair, a * n + b
-  std::vector<PairScreening> screened;        // by pair, the same
+  const StepStore* steps;                    // that of `kept`
+  std::vector<CorrelationGrid> given_grids;  // of height maps, for pairs of a larger set
+  std::vector<Tried> tried;                  // by pair, a * n + b
+  std::vector<PairScreening> screened;       // by pair, the same
   std::vector<std::vector<std::size_t>> partners;
   std::vector<std::size_t> reach;  // how many of them were asked for, of each scan
   FeatureAlignmentOptions features;
@@ -154,8 +154,8 @@ struct PairSearch::Impl {
 
   std::vector<PairScreening> screen(const std::vector<ScanPair>& all, HeightCorrelationOptions screening) const {
     if (steps == nullptr) return screen_by_height_maps(all_clouds(), all, screening, context.num_threads);
-    screening.grid = grid_once(*steps, scans, kept.base, screening, context.num_threads);
-    return screenings_once(*steps, scans, kept.base, screening, context.num_threads);
+    const auto grids = grids_once(*steps, scans, kept.base, screening, context.num_threads);
+    return screenings_once(*steps, scans, kept.base, grids, screening, context.num_threads);
   }
 
   std::vector<const Cloud*> all_clouds() const {
@@ -177,33 +177,44 @@ struct PairSearch::Impl {
 
   /// Those of the pairs that are kept; of the others, a block at a time is searched and kept.
   std::vector<std::vector<PoseCandidate>> by_height_maps(const ScanPairs& pairs) const {
-    if (steps == nullptr) return search_height_maps(pairs, height_map_options());
     HeightCorrelationOptions correlation = height_map_options();
-    correlation.grid = grid_of(pairs);
+    if (steps == nullptr) return search_height_maps(pairs, correlation);
+    const std::vector<CorrelationGrid> grids = grids_of(pairs);
     std::vector<std::vector<PoseCandidate>> out(pairs.size());
-    std::vector<std::size_t> missing;
+    std::map<std::pair<double, int>, std::vector<std::size_t>> missing;  // by grid
     for (std::size_t k = 0; k < pairs.size(); ++k) {
+      correlation.grid = grids[k];
       auto known = find_candidates(*steps, height_map_key_of(pairs[k], correlation));
       if (known) out[k] = std::move(*known);
-      if (!known) missing.push_back(k);
+      if (!known) missing[{grids[k].cell_m, grids[k].size}].push_back(k);
     }
-    const std::size_t num_blocks = (missing.size() + kBlock - 1) / kBlock;
+    for (const auto& [grid, places] : missing) {
+      correlation.grid = {grid.first, grid.second};
+      search_in_blocks(pairs, places, correlation, out);
+    }
+    return out;
+  }
+
+  /// The pairs at these places.
+  void search_in_blocks(const ScanPairs& pairs, const std::vector<std::size_t>& places,
+                        const HeightCorrelationOptions& correlation,
+                        std::vector<std::vector<PoseCandidate>>& out) const {
+    const std::size_t num_blocks = (places.size() + kBlock - 1) / kBlock;
     for (std::size_t number = 0; number < num_blocks; ++number) {
-      const std::size_t first = missing.size() * number / num_blocks;
-      const std::size_t size = missing.size() * (number + 1) / num_blocks - first;
-      context.report("comparing height maps", pairs.size() - missing.size() + first, pairs.size());
+      const std::size_t first = places.size() * number / num_blocks;
+      const std::size_t size = places.size() * (number + 1) / num_blocks - first;
+      context.report("comparing height maps", first, places.size());
       ScanPairs block;
-      for (std::size_t i = first; i < first + size; ++i) block.push_back(pairs[missing[i]]);
+      for (std::size_t i = first; i < first + size; ++i) block.push_back(pairs[places[i]]);
       const auto start = std::chrono::steady_clock::now();
       auto found = search_height_maps(block, correlation);
       const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
       for (std::size_t i = 0; i < size; ++i) {
         save_candidates(*steps, height_map_key_of(block[i], correlation), found[i],
                         elapsed.count() / static_cast<double>(size));
-        out[missing[first + i]] = std::move(found[i]);
+        out[places[first + i]] = std::move(found[i]);
       }
     }
-    return out;
   }
 
   HeightCorrelationOptions height_map_options() const {
@@ -212,15 +223,19 @@ struct PairSearch::Impl {
     return correlation;
   }
 
-  /// That of the set where all of it is compared.
-  CorrelationGrid grid_of(const ScanPairs& pairs) const {
-    if (given_grid) return *given_grid;
+  /// Of each pair; those of the set where all of it is compared.
+  std::vector<CorrelationGrid> grids_of(const ScanPairs& pairs) const {
+    if (!given_grids.empty()) return given_grids;
     const std::vector<const Cloud*> clouds = clouds_of(pairs);
     const HeightCorrelationOptions correlation = height_map_options();
     if (steps == nullptr || clouds.size() < scans.size()) {
-      return choose_correlation_grid(clouds, correlation, context.num_threads);
+      return std::vector<CorrelationGrid>(pairs.size(),
+                                          choose_correlation_grid(clouds, correlation, context.num_threads));
     }
-    return grid_once(*steps, scans, kept.base, correlation, context.num_threads);
+    const auto of_scans = grids_once(*steps, scans, kept.base, correlation, context.num_threads);
+    std::vector<CorrelationGrid> out;
+    for (const auto& [a, b] : pairs) out.push_back(grid_of_pair(of_scans[a], of_scans[b]));
+    return out;
   }
 
   StepKey height_map_key_of(const ScanPairs::value_type& pair, const HeightCorrelationOptions& correlation) const {
@@ -439,12 +454,12 @@ FirstPairs PairSearch::first_pairs() {
   FirstPairs out;
   out.pairs = impl_->pairs(Tried::kNothing, std::vector<bool>(n, true), groups);
   for (const auto& [a, b] : out.pairs) out.ups.push_back(impl_->screening_of(a, b).ups);
-  out.grid = impl_->grid_of(out.pairs);
+  out.grids = impl_->grids_of(out.pairs);
   return out;
 }
 
 void PairSearch::match(const FirstPairs& first) {
-  impl_->given_grid = first.grid;
+  impl_->given_grids = first.grids;
   impl_->screened.resize(impl_->scans.size() * impl_->scans.size());
   for (std::size_t k = 0; k < first.pairs.size(); ++k) {
     const auto [a, b] = first.pairs[k];

@@ -28,7 +28,7 @@ struct KeptSearches {
 struct FirstPairs {
   ScanPairs pairs;
   std::vector<std::vector<UpPair>> ups;  ///< of each pair, to search
-  CorrelationGrid grid;                  ///< of the height maps
+  std::vector<CorrelationGrid> grids;    ///< of each pair's height maps
 };
 
 class PairSearch {

@@ -1,6 +1,9 @@
 #include "links/pair_steps.hpp"
 
+#include <algorithm>
+#include <map>
 #include <unordered_map>
+#include <utility>
 
 #include "steps/do_once.hpp"
 #include "steps/key_parts.hpp"
@@ -71,13 +74,14 @@ void transfer(Record& record, T& value) {
 
 namespace {
 
-// A grid serves where its cells are about as large, and it is about as wide: wider than the widest scan it is anyway.
+// Cells are about as large: scores count them.
 constexpr double kMostOff = 1.1;
 
-bool serves(const CorrelationGrid& kept, const CorrelationGrid& own) {
-  const bool alike = kept.cell_m <= kMostOff * own.cell_m && own.cell_m <= kMostOff * kept.cell_m;
-  return alike && own.cell_m * own.size <= kMostOff * kept.cell_m * kept.size;
+bool are_alike(const CorrelationGrid& a, const CorrelationGrid& b) {
+  return a.cell_m <= kMostOff * b.cell_m && b.cell_m <= kMostOff * a.cell_m;
 }
+
+double width_m(const CorrelationGrid& grid) { return grid.cell_m * grid.size; }
 
 std::vector<const Cloud*> clouds_of(const std::vector<PreparedScan>& scans) {
   std::vector<const Cloud*> out;
@@ -88,10 +92,9 @@ std::vector<const Cloud*> clouds_of(const std::vector<PreparedScan>& scans) {
 /// The screenings of a set that was worked on before.
 class KnownScreenings {
  public:
-  KnownScreenings(const StepStore& store, const std::vector<std::string>& scans,
-                  const HeightCorrelationOptions& options) {
+  KnownScreenings(const StepStore& store, const std::vector<std::string>& scans, const StepKey& key) {
     if (scans.empty()) return;
-    auto all = find_step<std::vector<PairScreening>>(store, screening_key(scans, options));
+    auto all = find_step<std::vector<PairScreening>>(store, key);
     if (!all || all->size() != scans.size() * (scans.size() - 1) / 2) return;
     all_ = std::move(*all);
     for (std::size_t i = 0; i < scans.size(); ++i) place_[scans[i]] = i;
@@ -137,14 +140,6 @@ StepKey slide_key(const PreparedScan& target, const PreparedScan& source, const 
   return step_key("slides", target.digest, source.digest, from);
 }
 
-StepKey grid_key(const std::vector<std::string>& scans, const HeightCorrelationOptions& options) {
-  return step_key("grids", scans, options);
-}
-
-StepKey screening_key(const std::vector<std::string>& scans, const HeightCorrelationOptions& options) {
-  return step_key("rankings", scans, options);
-}
-
 std::string search_digest(const LinkSearchOptions& options) {
   const auto& [formulation, lp, level] = options;
   return step_key("searches", formulation, lp, level).digest;
@@ -170,37 +165,68 @@ std::vector<PoseCandidate> candidates_once(const StepStore& store, const StepKey
   return do_once<std::vector<PoseCandidate>>(store, key, search);
 }
 
-CorrelationGrid grid_once(const StepStore& store, const std::vector<PreparedScan>& scans,
-                          const std::vector<std::string>& base, const HeightCorrelationOptions& options,
-                          int num_threads) {
-  return do_once<CorrelationGrid>(store, grid_key(digests_of(scans), options), [&] {
+const CorrelationGrid& grid_of_pair(const CorrelationGrid& a, const CorrelationGrid& b) {
+  return width_m(a) != width_m(b) ? (width_m(a) > width_m(b) ? a : b) : (a.cell_m >= b.cell_m ? a : b);
+}
+
+std::vector<CorrelationGrid> grids_once(const StepStore& store, const std::vector<PreparedScan>& scans,
+                                        const std::vector<std::string>& base, const HeightCorrelationOptions& options,
+                                        int num_threads) {
+  using Grids = std::vector<CorrelationGrid>;
+  const std::vector<std::string> digests = digests_of(scans);
+  const auto key = [&](const std::vector<std::string>& set) { return step_key("grids", set, options); };
+  return do_once<Grids>(store, key(digests), [&] {
     const CorrelationGrid own = choose_correlation_grid(clouds_of(scans), options, num_threads);
-    const auto kept = base.empty() ? std::nullopt : find_step<CorrelationGrid>(store, grid_key(base, options));
-    return kept && serves(*kept, own) ? *kept : own;
+    const auto kept = base.empty() ? std::nullopt : find_step<Grids>(store, key(base));
+    if (!kept || kept->size() != base.size() ||
+        !std::all_of(kept->begin(), kept->end(), [&](const CorrelationGrid& g) { return are_alike(g, own); })) {
+      return Grids(scans.size(), own);
+    }
+    CorrelationGrid next = kept->front();
+    std::unordered_map<std::string, CorrelationGrid> grid_of;
+    for (std::size_t i = 0; i < base.size(); ++i) {
+      grid_of[base[i]] = (*kept)[i];
+      next = grid_of_pair(next, (*kept)[i]);
+    }
+    if (width_m(next) < width_m(own)) next = own;
+    Grids out;
+    for (const auto& digest : digests) out.push_back(grid_of.contains(digest) ? grid_of[digest] : next);
+    return out;
   });
 }
 
 std::vector<PairScreening> screenings_once(const StepStore& store, const std::vector<PreparedScan>& scans,
                                            const std::vector<std::string>& base,
-                                           const HeightCorrelationOptions& options, int num_threads) {
+                                           const std::vector<CorrelationGrid>& grids, HeightCorrelationOptions options,
+                                           int num_threads) {
   const std::vector<std::string> digests = digests_of(scans);
-  return do_once<std::vector<PairScreening>>(store, screening_key(digests, options), [&] {
-    const KnownScreenings known(store, base, options);
-    std::vector<ScanPair> missing;
+  const StepKey key = step_key("rankings", digests, grids, options);
+  return do_once<std::vector<PairScreening>>(store, key, [&] {
+    std::unordered_map<std::string, CorrelationGrid> grid_of;
+    for (std::size_t i = 0; i < scans.size(); ++i) grid_of[digests[i]] = grids[i];
+    std::vector<CorrelationGrid> of_base;
+    for (const auto& digest : base) of_base.push_back(grid_of[digest]);
+    const KnownScreenings known(store, base, step_key("rankings", base, of_base, options));
     std::vector<PairScreening> out;
-    std::vector<std::size_t> places;
+    // By width and cell of their grids: the pairs that are missing, and their places in `out`.
+    std::map<std::pair<double, int>, std::pair<std::vector<ScanPair>, std::vector<std::size_t>>> missing;
     for (std::size_t a = 0; a < scans.size(); ++a) {
       for (std::size_t b = a + 1; b < scans.size(); ++b) {
         const PairScreening* before = known.find(digests[a], digests[b]);
         if (before == nullptr) {
-          missing.push_back({a, b});
+          const CorrelationGrid& grid = grid_of_pair(grids[a], grids[b]);
+          auto& [pairs, places] = missing[{grid.cell_m, grid.size}];
+          pairs.push_back({a, b});
           places.push_back(out.size());
         }
         out.push_back(before != nullptr ? *before : PairScreening());
       }
     }
-    auto screened = screen_by_height_maps(clouds_of(scans), missing, options, num_threads);
-    for (std::size_t k = 0; k < places.size(); ++k) out[places[k]] = std::move(screened[k]);
+    for (const auto& [grid, wanted] : missing) {
+      options.grid = {grid.first, grid.second};
+      auto screened = screen_by_height_maps(clouds_of(scans), wanted.first, options, num_threads);
+      for (std::size_t k = 0; k < screened.size(); ++k) out[wanted.second[k]] = std::move(screened[k]);
+    }
     return out;
   });
 }

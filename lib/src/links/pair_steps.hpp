@@ -20,10 +20,6 @@ StepKey height_map_key(const PreparedScan& target, const PreparedScan& source, c
                        const HeightCorrelationOptions& options);
 StepKey feature_key(const PreparedScan& target, const PreparedScan& source, const LinkSearchOptions& options);
 StepKey slide_key(const PreparedScan& target, const PreparedScan& source, const std::vector<Eigen::Isometry3d>& from);
-/// The grid of a set's height maps, by the digests of its scans; and the ranking of all its pairs, in their order.
-StepKey grid_key(const std::vector<std::string>& scans, const HeightCorrelationOptions& options);
-StepKey screening_key(const std::vector<std::string>& scans, const HeightCorrelationOptions& options);
-
 /// Check sum over the options.
 std::string search_digest(const LinkSearchOptions& options);
 
@@ -35,16 +31,21 @@ void save_candidates(const StepStore& store, const StepKey& key, const std::vect
 std::vector<PoseCandidate> candidates_once(const StepStore& store, const StepKey& key,
                                            const std::function<std::vector<PoseCandidate>()>& search);
 
-/// choose_correlation_grid() of a set; or that of the set with the digests `base`, where that one serves this one.
-CorrelationGrid grid_once(const StepStore& store, const std::vector<PreparedScan>& scans,
-                          const std::vector<std::string>& base, const HeightCorrelationOptions& options,
-                          int num_threads);
+/// For each scan of a set the grid that it is compared on with those that came no later: choose_correlation_grid() of
+/// the set; for scans of the set with the digests `base` what they had there, as long as cells are about as large.
+std::vector<CorrelationGrid> grids_once(const StepStore& store, const std::vector<PreparedScan>& scans,
+                                        const std::vector<std::string>& base, const HeightCorrelationOptions& options,
+                                        int num_threads);
 
-/// screen_by_height_maps() of all pairs (a < b, a's first) of a set; those that `base` has and that were screened on
-/// the same grid are not screened again. @param options  with a grid
+/// That of the scan that came later: it holds both.
+const CorrelationGrid& grid_of_pair(const CorrelationGrid& a, const CorrelationGrid& b);
+
+/// screen_by_height_maps() of all pairs (a < b, a's first) of a set, each on its grid; those that `base` has and that
+/// were screened on the same are not screened again.
 std::vector<PairScreening> screenings_once(const StepStore& store, const std::vector<PreparedScan>& scans,
                                            const std::vector<std::string>& base,
-                                           const HeightCorrelationOptions& options, int num_threads);
+                                           const std::vector<CorrelationGrid>& grids, HeightCorrelationOptions options,
+                                           int num_threads);
 
 /// fit_candidate() of scans that have digests; without a store it is just that.
 std::optional<LinkHypothesis> fit_candidate_once(const StepStore* store, const PreparedScan& target,

@@ -68,10 +68,8 @@ MatchPlan plan_of(const Json& json) {
   json.at("scans").get_to(plan.scans);
   plan.coarse_m = json.at("coarse_m");
   plan.fine_m = json.at("fine_m");
-  plan.cell_m = json.at("cell_m");
-  plan.grid_size = json.at("grid_size");
   for (const auto& pair : json.at("pairs")) {
-    plan.pairs.push_back({pair.at("a"), pair.at("b"), pair.at("ups")});
+    plan.pairs.push_back({pair.at("a"), pair.at("b"), pair.at("ups"), pair.at("cell_m"), pair.at("grid_size")});
     if (std::max(plan.pairs.back().a, plan.pairs.back().b) >= plan.scans.size()) throw BrokenRecord();
   }
   return plan;
@@ -110,8 +108,6 @@ MatchPlan plan_matches(const StepStore& steps, std::span<const ScanInput> inputs
                  {},
                  kept.resolutions.coarse_m,
                  kept.resolutions.fine_m,
-                 first.grid.cell_m,
-                 first.grid.size,
                  {}};
   for (const auto& scan : sampled) plan.scans.push_back(scan.digest);
   const std::vector<std::size_t> number = near_one_another(sampled.size(), first.pairs);
@@ -120,7 +116,7 @@ MatchPlan plan_matches(const StepStore& steps, std::span<const ScanInput> inputs
     in_order_of_numbers[std::minmax(number[first.pairs[k].first], number[first.pairs[k].second])] = k;
   }
   for (const auto& [numbers, k] : in_order_of_numbers) {
-    PlannedPair pair{first.pairs[k].first, first.pairs[k].second, {}};
+    PlannedPair pair{first.pairs[k].first, first.pairs[k].second, {}, first.grids[k].cell_m, first.grids[k].size};
     for (const UpPair& up : first.ups[k]) pair.ups.emplace_back(up.target, up.source);
     plan.pairs.push_back(std::move(pair));
   }
@@ -156,10 +152,10 @@ std::size_t match_block(const StepStore& steps, const MatchPlan& plan, std::size
     sampled.push_back(std::move(*sample));
   }
   FirstPairs first;
-  first.grid = {plan.cell_m, plan.grid_size};
   for (std::size_t i = begin; i < end; ++i) {
     const PlannedPair& pair = plan.pairs[i];
     first.pairs.emplace_back(places[pair.a], places[pair.b]);
+    first.grids.push_back({pair.cell_m, pair.grid_size});
     first.ups.emplace_back();
     for (const auto& [target, source] : pair.ups) first.ups.back().push_back({target, source});
   }
@@ -173,10 +169,11 @@ std::size_t match_block(const StepStore& steps, const MatchPlan& plan, std::size
 
 void write_plan(const StepStore& steps, const MatchPlan& plan) {
   Json pairs = Json::array();
-  for (const auto& pair : plan.pairs) pairs.push_back({{"a", pair.a}, {"b", pair.b}, {"ups", pair.ups}});
+  for (const auto& pair : plan.pairs)
+    pairs.push_back(
+        {{"a", pair.a}, {"b", pair.b}, {"ups", pair.ups}, {"cell_m", pair.cell_m}, {"grid_size", pair.grid_size}});
   const Json json{{"program", plan.program}, {"options", plan.options}, {"coarse_m", plan.coarse_m},
-                  {"fine_m", plan.fine_m},   {"cell_m", plan.cell_m},   {"grid_size", plan.grid_size},
-                  {"scans", plan.scans},     {"pairs", pairs}};
+                  {"fine_m", plan.fine_m},   {"scans", plan.scans},     {"pairs", pairs}};
   write_whole(plan_path(steps), json.dump() + "\n", steps.folder() / "unfinished");
 }
 

@@ -18,6 +18,8 @@ namespace tcm_icp {
 struct PlannedPair {
   std::size_t a = 0, b = 0;                              ///< places in MatchPlan::scans
   std::vector<std::pair<std::size_t, std::size_t>> ups;  ///< UpPair: what may be up in both
+  double cell_m = 0;                                     ///< of the grid of the height maps
+  int grid_size = 0;
 };
 
 /// All that a block needs to know of its set.
@@ -26,8 +28,6 @@ struct MatchPlan {
   std::string options;             ///< digest of those that count
   std::vector<std::string> scans;  ///< digests of the samples
   double coarse_m = 0, fine_m = 0;
-  double cell_m = 0;
-  int grid_size = 0;
   std::vector<PlannedPair> pairs;  ///< neighbours have scans in common
 };
 
