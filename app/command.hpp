@@ -25,5 +25,11 @@ int cmd_evaluate(const Arguments& arguments);
 int cmd_degrade(const Arguments& arguments);
 int cmd_inspect(const Arguments& arguments);
 int cmd_simulate(const Arguments& arguments);
+// The steps of a registration.
+int cmd_sample(const Arguments& arguments);
+int cmd_plan(const Arguments& arguments);
+int cmd_match(const Arguments& arguments);
+int cmd_solve(const Arguments& arguments);
+int cmd_write(const Arguments& arguments);
 
 }  // namespace tcm_icp::app

@@ -31,6 +31,11 @@ constexpr std::array kCommands{
     Command{"inspect", cmd_inspect, "counts, extents, spacing, TCM and correspondence graph of scans"},
     Command{"render", cmd_render, "picture of a merged cloud, from above and obliquely"},
     Command{"simulate", cmd_simulate, "LiDAR scans of a made-up scene, with exact truth"},
+    Command{"sample", cmd_sample, "steps of a registration, for many machines: 1, read scans"},
+    Command{"plan", cmd_plan, "2, which pairs to search"},
+    Command{"match", cmd_match, "3, search a block of pairs"},
+    Command{"solve", cmd_solve, "4, poses and report"},
+    Command{"write", cmd_write, "5, write scans in the common frame"},
 };
 
 void print_help(std::ostream& out) {

@@ -293,6 +293,7 @@ po::options_description cloud_options(OutputOptions& o, Choices& c) {
 // What `register --help` shows: what to write, how to run, and what most sets of scans may need.
 constexpr std::array kUsedMost{"out",
                                "force",
+                               "work",
                                "config",
                                "format",
                                "each",
@@ -369,12 +370,32 @@ po::options_description command_line_only(RegisterOptions& o, std::string& confi
   po::options_description general("Output and control");
   general.add_options()("out,o", po::value(&o.out), "folder for the result; must not exist, or --force")(
       "force", po::bool_switch(&o.force), "replace an earlier result")(
-      "config", po::value(&config), "read options from FILE (name = value); the command line wins")(
+      "work", po::value(&o.work), "folder that keeps finished steps, to go on from")(
+      "config", po::value(&config), "read options from FILE (name = value)")(
       "print-config", po::bool_switch(&o.print_config), "write the effective options to stdout and stop")(
       "quiet,q", po::bool_switch(&o.quiet), kQuietHelp)("verbose,v", po::bool_switch(&o.verbose),
                                                         "say what happens to each scan")(
       "help,h", po::bool_switch(&o.help), "the options used most")("help-all", po::bool_switch(&o.help_all),
                                                                    "all options");
+  return general;
+}
+
+// What each step takes beside what may stand in a file.
+po::options_description step_command_line(std::string_view command, StepOptions& o, std::string& config) {
+  po::options_description general("Output and control");
+  general.add_options()("work", po::value(&o.work), "work folder: what steps hand on to one another");
+  if (command == "match") {
+    general.add_options()("block", po::value(&o.block), "K/N: block K of N of the pairs that were planned, K from 1");
+  }
+  if (command == "solve" || command == "write") {
+    general.add_options()("out,o", po::value(&o.out),
+                          command == "solve" ? "folder for the result; must not exist, or --force"
+                                             : "folder of the result: poses.json is read, scans/ written");
+  }
+  if (command == "solve") general.add_options()("force", po::bool_switch(&o.force), "replace an earlier result");
+  general.add_options()("config", po::value(&config), "read options from FILE, as register does")(
+      "quiet,q", po::bool_switch(&o.quiet), kQuietHelp)("verbose,v", po::bool_switch(&o.verbose), kVerboseHelp)(
+      "help,h", po::bool_switch(&o.help), "this text");
   return general;
 }
 
@@ -439,15 +460,16 @@ void read_config(const std::string& path, const po::options_description& options
 
 }  // namespace
 
-RegisterOptions parse_register_options(const Arguments& arguments) {
-  RegisterOptions o;
-  Choices choices(o.pipeline);
-  std::string config;
+namespace {
+
+// Reads both, the command line and the file that it names.
+void read_options(RegisterOptions& o, Choices& choices, const po::options_description& general,
+                  const Arguments& arguments) {
   const po::options_description file_options = configurable(o, choices);
   po::options_description scans;
   scans.add_options()("scan", po::value(&o.scans));
   po::options_description all;
-  all.add(command_line_only(o, config)).add(file_options).add(scans);
+  all.add(general).add(file_options).add(scans);
 
   po::variables_map map;
   store_checked(parse_arguments(arguments, all, "scan"), map);
@@ -463,7 +485,71 @@ RegisterOptions parse_register_options(const Arguments& arguments) {
                      parse_length("accept-sigma", choices.accept_sigma)};
   if (o.method != Method::kTcm) use_conventional_defaults(map, choices);
   finish(o, choices);
+}
+
+struct StepText {
+  std::string_view command, usage, text;
+};
+
+constexpr std::array kSteps{
+    StepText{"sample", "sample SCAN... --work DIR [OPTIONS]",
+             "Step 1 of a registration: reads scans, and keeps in the work folder what stands for each from then on."},
+    StepText{
+        "plan", "plan SCAN... --work DIR [OPTIONS]",
+        "Step 2 of a registration: ranks all pairs of all scans, and writes down in the work folder which to search\n"
+        "first (plan.json). Says how many there are."},
+    StepText{
+        "match", "match --work DIR --block K/N [OPTIONS]",
+        "Step 3 of a registration: searches block K of N of the pairs that were planned, and keeps what it finds."},
+    StepText{
+        "solve", "solve SCAN... --work DIR --out DIR [OPTIONS]",
+        "Step 4 of a registration: poses and report from what is in the work folder; what is not there is done. The\n"
+        "points of the scans are not read again: there is no merged cloud, and there are no pictures."},
+    StepText{
+        "write", "write SCAN... --work DIR --out DIR [OPTIONS]",
+        "Step 5 of a registration: writes scans of a solved one in the common frame, each to a file in scans/, as\n"
+        "'tcm-icp register --each' does."}};
+
+}  // namespace
+
+RegisterOptions parse_register_options(const Arguments& arguments) {
+  RegisterOptions o;
+  Choices choices(o.pipeline);
+  std::string config;
+  read_options(o, choices, command_line_only(o, config), arguments);
   return o;
+}
+
+StepOptions parse_step_options(std::string_view command, const Arguments& arguments) {
+  StepOptions o;
+  Choices choices(o.pipeline);
+  std::string config;
+  read_options(o, choices, step_command_line(command, o, config), arguments);
+  if (o.help) return o;
+  if (o.method != Method::kTcm) throw InvalidOptions("--method: only tcm has steps; leave it out");
+  if (o.work.empty()) {
+    throw InvalidOptions("--work DIR is missing: where are the steps to be kept?");
+  }
+  return o;
+}
+
+void print_step_help(std::string_view command, std::ostream& out) {
+  StepOptions o;
+  Choices choices(o.pipeline);
+  const po::options_description file_options = configurable(o, choices);
+  po::options_description of_registration("Of the registration, among others");
+  for (const char* name : {"bin", "unit", "seed", "threads"}) {
+    of_registration.add(boost::make_shared<po::option_description>(file_options.find(name, false)));
+  }
+  std::string config;
+  const auto* const step =
+      std::find_if(kSteps.begin(), kSteps.end(), [&](const StepText& s) { return s.command == command; });
+  out << "Usage: tcm-icp " << step->usage << "\n\n"
+      << step->text
+      << "\nAll steps of a registration take the same options as 'tcm-icp register', best by one --config file.\n\n"
+      << step_command_line(command, o, config) << '\n'
+      << of_registration
+      << "\n'tcm-icp register --help-all' lists the other options; docs/cluster.md shows how steps are run.\n";
 }
 
 InspectOptions parse_inspect_options(const Arguments& arguments) {

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <iosfwd>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "command.hpp"
@@ -46,9 +47,15 @@ struct RegisterOptions : ScanSetOptions {
   ReportOptions report;
   Method method = Method::kTcm;
   std::string out;
+  std::string work;  ///< folder that keeps finished steps; empty: none
   bool force = false;
   bool print_config = false;
   bool help_all = false;
+};
+
+/// A step of a registration by itself: the options of the registration, and which step.
+struct StepOptions : RegisterOptions {
+  std::string block;  ///< "3/20"
 };
 
 struct InspectOptions : ScanSetOptions {
@@ -61,6 +68,11 @@ RegisterOptions parse_register_options(const Arguments& arguments);
 
 enum class Help { kUsedMost, kAll };
 void print_register_help(Help which, std::ostream& out);
+
+/// The same of a step. @param command  "sample", "plan", "match", "solve" or "write"
+StepOptions parse_step_options(std::string_view command, const Arguments& arguments);
+
+void print_step_help(std::string_view command, std::ostream& out);
 
 /// @throws InvalidOptions, boost::program_options::error
 InspectOptions parse_inspect_options(const Arguments& arguments);

@@ -115,6 +115,20 @@ RunContext run_context(const ScanSetOptions& options, Console& console) {
   return context;
 }
 
+std::shared_ptr<const StepStore> open_work_folder(const std::string& folder, const RunContext& context) {
+  if (folder.empty()) return nullptr;
+  return std::make_shared<StepStore>(folder, [&context](std::string_view message) { context.warn(message); });
+}
+
+void report_steps(const StepStore& steps, const RunContext& context) {
+  std::string text;
+  for (const auto& [kind, count] : steps.counts()) {
+    text += (text.empty() ? "" : "; ") + kind + ": " + std::to_string(count.num_found) + " there, " +
+            std::to_string(count.num_made) + " done";
+  }
+  context.info("steps in " + steps.folder().string() + ": " + (text.empty() ? "none" : text));
+}
+
 std::string time_now() {
   const std::time_t now = std::time(nullptr);
   std::tm parts{};

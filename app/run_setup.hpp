@@ -2,6 +2,7 @@
 // From options to what the library is called with; common to the commands that read a set of scans.
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "tcm_icp/core/run_context.hpp"
 #include "tcm_icp/io/scan_inputs.hpp"
 #include "tcm_icp/pipeline/pipeline.hpp"
+#include "tcm_icp/steps/step_store.hpp"
 
 namespace tcm_icp::app {
 
@@ -53,6 +55,12 @@ InitialPoses read_guess(const ScanSetOptions& options, const std::vector<std::fi
 
 /// Reports to the console, which must outlive it.
 RunContext run_context(const ScanSetOptions& options, Console& console);
+
+/// The work folder; nullptr where `folder` is empty. @param context  is told of damaged files; outlives the store
+std::shared_ptr<const StepStore> open_work_folder(const std::string& folder, const RunContext& context);
+
+/// Says how many steps were taken from the work folder and how many done.
+void report_steps(const StepStore& steps, const RunContext& context);
 
 /// Date and time on the clock of the place, ISO 8601 with the offset to UTC.
 std::string time_now();

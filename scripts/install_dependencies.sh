@@ -6,7 +6,7 @@ set -euo pipefail
 usage() {
   cat <<'TEXT'
 Usage: install_dependencies.sh [--tests] [--checks] [--crs] [--conventional] [--outside] [--paper] [--benchmarks]
-                               [--comparison] [--python] [--packages] [--site]
+                               [--comparison] [--python] [--packages] [--site] [--workflow]
   --tests       also what the tests need (GoogleTest; for the Python module pybind11, NumPy; Chromium, to look at a report)
   --checks      also what the format and script checks and scripts/fuzz.sh need (clang-format, shellcheck, clang)
   --crs         also what the text of EPSG codes in LAS and E57 needs (PROJ)
@@ -19,6 +19,7 @@ Usage: install_dependencies.sh [--tests] [--checks] [--crs] [--conventional] [--
   --python      also what the Python module needs (pybind11, Python's headers, NumPy)
   --packages    also what scripts/make_packages.sh needs (those, dpkg-dev)
   --site        also what scripts/make_site.sh needs (mkdocs, Doxygen)
+  --workflow    also what workflow/ and scripts/test_workflow.sh need (Snakemake, Slurm: with dependencies 700 MB)
 TCM_ICP_SKIP_INSTALL=1 turns the script off: for systems other than Debian, where the libraries came another way.
 TEXT
 }
@@ -39,6 +40,7 @@ while (($# > 0)); do
     --python) packages+=(pybind11-dev python3-dev python3-numpy) ;;
     --packages) packages+=(pybind11-dev python3-dev python3-numpy dpkg-dev file) ;;
     --site) packages+=(doxygen mkdocs) ;;
+    --workflow) packages+=(snakemake slurmctld slurmd slurm-client munge) ;;
     -h | --help) usage; exit 0 ;;
     *) usage >&2; exit 1 ;;
   esac

@@ -10,7 +10,7 @@ _tcm_icp() {
   local cur=${COMP_WORDS[COMP_CWORD]} prev=${COMP_WORDS[COMP_CWORD - 1]} words=""
   COMPREPLY=()
   if ((COMP_CWORD == 1)); then
-    mapfile -t COMPREPLY < <(compgen -W "register evaluate degrade inspect render simulate --help --version" -- "$cur")
+    mapfile -t COMPREPLY < <(compgen -W "register evaluate degrade inspect render simulate sample plan match solve write --help --version" -- "$cur")
     return
   fi
   case $prev in

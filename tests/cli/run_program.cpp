@@ -68,6 +68,10 @@ RunResult run_program(const Words& arguments, const RunSettings& settings) {
   const pid_t child = fork();
   if (child < 0) throw std::runtime_error("no process can be started");
   if (child == 0) become_program(argv, settings, out, err);
+  if (settings.kill_after_ms > 0) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(settings.kill_after_ms));
+    kill(child, SIGKILL);  // the child is not waited for yet, so that its number is nobody else's
+  }
   if (!settings.interrupt_at.empty()) interrupt_at(settings.interrupt_at, child, err);
   int status = 0;
   rusage usage{};

@@ -25,6 +25,7 @@ struct RunSettings {
   std::filesystem::path folder;       ///< to run in
   std::size_t max_file_bytes = 0;     ///< no file may grow larger, as on a full disk; 0: no limit
   std::string interrupt_at;           ///< Ctrl-C (SIGINT) as soon as stderr has this; empty: never
+  int kill_after_ms = 0;              ///< SIGKILL, if it still runs then; 0: never
   std::filesystem::path stdout_file;  ///< where stdout goes; empty: it is caught
 };
 

@@ -33,7 +33,8 @@ DescribedScan described(const std::vector<Descriptors>& levels) {
   return out;
 }
 
-// On a road: each scan has the surfaces of two stretches, one of them that of the next scan; and the noise of measuring.
+// On a road: each scan has the surfaces of two stretches, one of them that of the next scan; and the noise of
+// measuring.
 std::vector<DescribedScan> road(std::size_t num_scans, float noise, Rng& rng) {
   std::vector<Descriptors> stretches;
   for (std::size_t i = 0; i <= num_scans; ++i) stretches.push_back(random_columns(150, rng));

@@ -85,6 +85,11 @@ void Search::find_footprints(const std::vector<const Cloud*>& clouds) {
 }
 
 void Search::choose_grid() {
+  if (options.grid.size > 0) {
+    cell_m = options.grid.cell_m;
+    grid_size = options.grid.size;
+    return;
+  }
   std::vector<double> width_m;
   double largest_m = 0;
   for (const auto& scan : scans) {
@@ -291,6 +296,15 @@ void search_in_blocks(const std::vector<const Cloud*>& scans, const std::vector<
 }
 
 }  // namespace
+
+CorrelationGrid choose_correlation_grid(const std::vector<const Cloud*>& scans, const HeightCorrelationOptions& options,
+                                        int num_threads) {
+  options.validate();
+  Search search{options, num_threads, {}};
+  search.find_footprints(scans);
+  search.choose_grid();
+  return {search.cell_m, search.grid_size};
+}
 
 std::vector<PairScreening> screen_by_height_maps(const std::vector<const Cloud*>& scans,
                                                  const std::vector<ScanPair>& pairs,

@@ -31,8 +31,8 @@ Cut measure_cut(const PairGraph& graph, const Component& component, std::vector<
 /// Its support alone.
 double measure_support(const PairGraph& graph, const Component& component, const std::vector<std::size_t>& moved);
 
-/// What the pairs across could say, together, for another place of `moved` at the most: that of a motion which leaves no
-/// pair at its pose. Cost: the pairs across.
+/// What the pairs across could say, together, for another place of `moved` at the most: that of a motion which leaves
+/// no pair at its pose. Cost: the pairs across.
 double most_elsewhere(const PairGraph& graph, const Component& component, const std::vector<std::size_t>& moved);
 
 /// The parts that minimum cuts of the pairs' support leave, without the reference, each once: for any two members the

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <numeric>
 #include <optional>
@@ -10,8 +9,8 @@
 
 #include "core/acceptance.hpp"
 #include "links/link_fit.hpp"
+#include "links/pair_steps.hpp"
 #include "tcm_icp/coarse/feature_alignment.hpp"
-#include "tcm_icp/coarse/height_correlation.hpp"
 #include "tcm_icp/coarse/scan_words.hpp"
 #include "tcm_icp/coarse/slide_search.hpp"
 #include "tcm_icp/core/parallel.hpp"
@@ -70,12 +69,21 @@ Tried next(Tried before) { return static_cast<Tried>(static_cast<char>(before) +
 }  // namespace
 
 struct PairSearch::Impl {
-  Impl(const std::vector<PreparedScan>& all, const LinkSearchOptions& o, const RunContext& c)
-      : scans(all), options(o), context(c), reach(all.size(), kFirstPartners) {}
+  Impl(const std::vector<PreparedScan>& all, const LinkSearchOptions& o, const RunContext& c, KeptSearches k)
+      : scans(all),
+        options(o),
+        context(c),
+        kept(std::move(k)),
+        steps(kept.store),
+        height_maps(all, o.level, c, kept),
+        reach(all.size(), kFirstPartners) {}
 
   const std::vector<PreparedScan>& scans;
   const LinkSearchOptions& options;
   const RunContext& context;
+  const KeptSearches kept;
+  const StepStore* steps;  // that of `kept`
+  HeightMapSearch height_maps;
   std::map<ScanPairs::value_type, Tried> tried;  // pairs that were
   std::vector<std::size_t> reach;                // how many partners were asked for, of each scan
   FeatureAlignmentOptions features;
@@ -106,8 +114,9 @@ struct PairSearch::Impl {
     const auto keep_best = [&](const std::vector<double>& score, std::size_t count) {
       if (out.size() <= count) return;
       const auto end = out.begin() + static_cast<std::ptrdiff_t>(count);
-      std::partial_sort(out.begin(), end, out.end(),
-                        [&](std::size_t x, std::size_t y) { return score[x] != score[y] ? score[x] > score[y] : x < y; });
+      std::partial_sort(out.begin(), end, out.end(), [&](std::size_t x, std::size_t y) {
+        return score[x] != score[y] ? score[x] > score[y] : x < y;
+      });
       out.erase(end, out.end());
     };
     keep_best(words->likeness(scan), kAlignedByReach * reach[scan]);
@@ -134,11 +143,17 @@ struct PairSearch::Impl {
     parallel_for(context.num_threads, open.size(), [&](std::size_t begin, std::size_t end) {
       for (std::size_t k = begin; k < end; ++k) {
         const auto [a, b] = open[k];
-        found[k] = align_by_features({scans[a].pyramid, described[a]}, {scans[b].pyramid, described[b]}, features);
-        if (options.level) std::erase_if(found[k], [](const PoseCandidate& c) { return tilts(c.T_target_source); });
+        found[k] = once([&, a = a, b = b] { return feature_key(scans[a], scans[b], options); },
+                        [&, a = a, b = b] { return aligned_by_features(a, b); });
       }
     });
     for (std::size_t k = 0; k < open.size(); ++k) aligned.emplace(open[k], std::move(found[k]));
+  }
+
+  std::vector<PoseCandidate> aligned_by_features(std::size_t a, std::size_t b) const {
+    auto found = align_by_features({scans[a].pyramid, described[a]}, {scans[b].pyramid, described[b]}, features);
+    if (options.level) std::erase_if(found, [](const PoseCandidate& c) { return tilts(c.T_target_source); });
+    return found;
   }
 
   /// Pairs of each wanted scan with its likeliest partners outside its group, by what they were tried by.
@@ -165,28 +180,6 @@ struct PairSearch::Impl {
       more = true;
     }
     return more;
-  }
-
-  std::vector<std::vector<PoseCandidate>> by_height_maps(const ScanPairs& pairs) const {
-    constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
-    std::vector<const Cloud*> clouds;  // of the scans that are in a pair
-    std::vector<std::size_t> place(scans.size(), kNone);
-    std::vector<ScanPair> wanted;
-    for (const auto& [a, b] : pairs) {
-      for (const std::size_t i : {a, b}) {
-        if (place[i] != kNone) continue;
-        place[i] = clouds.size();
-        clouds.push_back(&scans[i].fine.cloud);
-      }
-      wanted.push_back({place[a], place[b]});
-    }
-    HeightCorrelationOptions screening = screening_options();
-    screening.vertical.levelled = options.level;
-    const auto screened = screen_by_height_maps(clouds, wanted, screening, context.num_threads);
-    for (std::size_t k = 0; k < wanted.size(); ++k) wanted[k].ups = screened[k].ups;
-    HeightCorrelationOptions correlation;
-    correlation.vertical.levelled = options.level;
-    return correlate_height_maps(clouds, wanted, correlation, context.num_threads);
   }
 
   void describe() {
@@ -216,17 +209,31 @@ struct PairSearch::Impl {
         const auto [a, b] = pairs[k];
         const auto known = fitted.find(pairs[k]);
         if (known == fitted.end()) continue;
-        const bool seen = scans[a].sight.knows_sides() && scans[b].sight.knows_sides();
-        const NormalSides sides = seen ? NormalSides::kSeen : NormalSides::kUnknown;
-        const Cloud target = surfaces(scans[a], sides), source = surfaces(scans[b], sides);
-        const double voxel_m = scans[a].pyramid.level(0).voxel_size_m;
-        for (const Eigen::Isometry3d& T : known->second) {
-          const auto slid = slide_candidates(target, source, T, voxel_m, sides, kSlidesOfPose);
-          out[k].insert(out[k].end(), slid.begin(), slid.end());
-        }
+        out[k] = once([&, a = a, b = b] { return slide_key(scans[a], scans[b], known->second); },
+                      [&, a = a, b = b] { return slides_of(scans[a], scans[b], known->second); });
       }
     });
     return out;
+  }
+
+  static std::vector<PoseCandidate> slides_of(const PreparedScan& a, const PreparedScan& b,
+                                              const std::vector<Eigen::Isometry3d>& poses) {
+    const bool seen = a.sight.knows_sides() && b.sight.knows_sides();
+    const NormalSides sides = seen ? NormalSides::kSeen : NormalSides::kUnknown;
+    const Cloud target = surfaces(a, sides), source = surfaces(b, sides);
+    const double voxel_m = a.pyramid.level(0).voxel_size_m;
+    std::vector<PoseCandidate> out;
+    for (const Eigen::Isometry3d& T : poses) {
+      const auto slid = slide_candidates(target, source, T, voxel_m, sides, kSlidesOfPose);
+      out.insert(out.end(), slid.begin(), slid.end());
+    }
+    return out;
+  }
+
+  /// A search that is kept, where anything is.
+  template <typename MakeKey, typename Search>
+  std::vector<PoseCandidate> once(const MakeKey& key, const Search& search) const {
+    return steps != nullptr ? candidates_once(*steps, key(), search) : search();
   }
 
   /// By the method after `before`.
@@ -234,7 +241,7 @@ struct PairSearch::Impl {
     switch (before) {
       case Tried::kNothing:
         context.report("comparing height maps", 0, pairs.size());
-        return by_height_maps(pairs);
+        return height_maps.candidates(pairs, height_maps.grids_of(pairs));
       case Tried::kHeightMaps:
         context.report("comparing features", 0, pairs.size());
         return by_features(pairs);
@@ -301,7 +308,7 @@ struct PairSearch::Impl {
           const auto [a, b] = pairs[open[i]];
           std::vector<PoseCandidate>& queue = queues[open[i]];
           while (!queue.empty() && !found[i]) {
-            found[i] = fit_candidate(scans[a], scans[b], queue.back(), options);
+            found[i] = fit_candidate_once(steps, scans[a], scans[b], queue.back(), options);
             queue.pop_back();
           }
         }
@@ -323,8 +330,8 @@ struct PairSearch::Impl {
 };
 
 PairSearch::PairSearch(const std::vector<PreparedScan>& scans, const LinkSearchOptions& options,
-                       const RunContext& context)
-    : impl_(new Impl(scans, options, context)) {}
+                       const RunContext& context, KeptSearches kept)
+    : impl_(new Impl(scans, options, context, std::move(kept))) {}
 PairSearch::~PairSearch() = default;
 
 void PairSearch::try_guesses(const std::vector<std::optional<Eigen::Isometry3d>>& T_common_scan, HypothesisSet& set) {
@@ -337,6 +344,29 @@ void PairSearch::try_guesses(const std::vector<std::optional<Eigen::Isometry3d>>
     }
   }
   impl_->try_poses(poses, CoarseMethod::kGuess, poses.size(), set);
+}
+
+FirstPairs PairSearch::first_pairs() {
+  const std::size_t n = impl_->scans.size();
+  std::vector<std::size_t> groups(n);
+  std::iota(groups.begin(), groups.end(), std::size_t{0});
+  FirstPairs out;
+  out.pairs = impl_->pairs(std::vector<bool>(n, true), groups)[Tried::kNothing];
+  out.grids = impl_->height_maps.grids_of(out.pairs);
+  return out;
+}
+
+void PairSearch::match(const FirstPairs& first) {
+  const auto candidates = impl_->height_maps.candidates(first.pairs, first.grids);
+  impl_->context.report("fitting", 0, first.pairs.size());
+  parallel_for(impl_->context.num_threads, first.pairs.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      const PreparedScan &a = impl_->scans[first.pairs[k].first], &b = impl_->scans[first.pairs[k].second];
+      for (const PoseCandidate& candidate : in_order_of_promise(a, b, candidates[k])) {
+        if (fit_candidate_once(impl_->steps, a, b, candidate, impl_->options)) break;
+      }
+    }
+  });
 }
 
 bool PairSearch::may_overlap(std::size_t a, std::size_t b, const Eigen::Isometry3d& T_a_b) const {

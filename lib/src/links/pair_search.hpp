@@ -4,21 +4,39 @@
 #include <cstddef>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "inference/implied_poses.hpp"
+#include "links/height_map_search.hpp"
 #include "links/hypotheses.hpp"
 #include "links/link_fit.hpp"
 #include "scans/prepared_scan.hpp"
+#include "tcm_icp/coarse/height_correlation.hpp"
 #include "tcm_icp/core/run_context.hpp"
+#include "tcm_icp/steps/step_store.hpp"
 
 namespace tcm_icp {
 
+/// The pairs that every search begins with, each of which can be searched by itself.
+struct FirstPairs {
+  ScanPairs pairs;
+  std::vector<HeightMapGrids> grids;  ///< of each pair
+};
+
 class PairSearch {
  public:
-  /// Keeps references: all three must outlive the search.
-  PairSearch(const std::vector<PreparedScan>& scans, const LinkSearchOptions& options, const RunContext& context);
+  /// Keeps references: all must outlive the search.
+  PairSearch(const std::vector<PreparedScan>& scans, const LinkSearchOptions& options, const RunContext& context,
+             KeptSearches kept = {});
   ~PairSearch();
+
+  /// What extend() tries first where all scans are wanted.
+  FirstPairs first_pairs();
+
+  /// Does the steps of pairs that first_pairs() of a larger set gave, and keeps them: each is searched, and its most
+  /// promising candidate fitted. @pre there is a store
+  void match(const FirstPairs& first);
 
   /// Whether two scans can overlap at all at a pose, as far as their extents tell.
   bool may_overlap(std::size_t a, std::size_t b, const Eigen::Isometry3d& T_a_b) const;
@@ -33,8 +51,8 @@ class PairSearch {
   /// Tries the pairs of `wanted` scans with those of other `groups` (numbers by scan: poses within a group are clear)
   /// by the next method that they were not tried by: height maps, features, slides of the poses that those fitted to
   /// (slide_search.hpp). Hypotheses go to the set. False where no pair was left. Each scan is tried with the six others
-  /// that look most like it (ScanWords); once they were tried by all methods, wanted scans are tried with twice as many.
-  /// Cost: some 50 ms of processor time a pair and method, and a scan.
+  /// that look most like it (ScanWords); once they were tried by all methods, wanted scans are tried with twice as
+  /// many. Cost: some 50 ms of processor time a pair and method, and a scan.
   bool extend(const std::vector<bool>& wanted, const std::vector<std::size_t>& groups, HypothesisSet& set);
 
  private:

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <unordered_set>
 #include <utility>
 
@@ -61,6 +62,7 @@ bool all_equal(const Points& points) {
 
 struct OutlierRule::Impl {
   // kKMeans
+  Points centroid_points;
   std::optional<NeighborIndex> centroids;
   double threshold_m = 0;
   // kDistance and kLof; membership only, so the order of a hash decides nothing
@@ -71,6 +73,31 @@ struct OutlierRule::Impl {
 OutlierRule::OutlierRule() = default;
 OutlierRule::OutlierRule(std::shared_ptr<const Impl> impl, OutlierSummary summary)
     : impl_(std::move(impl)), summary_(summary) {}
+
+OutlierRule::OutlierRule(const OutlierRuleState& state) : summary_(state.summary) {
+  if (state.keeps_all) return;
+  auto impl = std::make_shared<Impl>();
+  impl->centroid_points = state.centroids;
+  if (state.summary.method == OutlierMethod::kKMeans) impl->centroids.emplace(state.centroids);
+  impl->threshold_m = state.threshold_m;
+  impl->outlier_voxels.insert(state.voxels.begin(), state.voxels.end());
+  impl->voxel_size_m = state.voxel_size_m;
+  impl_ = impl;
+}
+
+OutlierRuleState OutlierRule::state() const {
+  OutlierRuleState out;
+  out.summary = summary_;
+  out.keeps_all = impl_ == nullptr;
+  if (out.keeps_all) return out;
+  out.centroids = impl_->centroid_points;
+  out.threshold_m = impl_->threshold_m;
+  out.voxels.assign(impl_->outlier_voxels.begin(), impl_->outlier_voxels.end());
+  std::sort(out.voxels.begin(), out.voxels.end(),
+            [](const VoxelKey& a, const VoxelKey& b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); });
+  out.voxel_size_m = impl_->voxel_size_m;
+  return out;
+}
 
 bool OutlierRule::is_outlier(const Eigen::Vector3d& p) const {
   if (!p.allFinite()) return true;
@@ -142,6 +169,7 @@ OutlierRule learn_outlier_rule(const Points& working_cloud, double voxel_size_m,
   auto impl = std::make_shared<OutlierRule::Impl>();
   if (options.method == OutlierMethod::kKMeans) {
     const auto rule = detail::learn_kmeans_rule(thinned.points, thinned.num_voxels, options, rng, num_threads, summary);
+    impl->centroid_points = rule.centroids;
     impl->centroids.emplace(rule.centroids);
     impl->threshold_m = rule.threshold_m;
   } else {

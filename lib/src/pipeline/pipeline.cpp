@@ -16,7 +16,10 @@ bool PipelineResult::all_registered() const {
                       [](const ScanPose& p) { return p.status == ScanStatus::kUnregistered; });
 }
 
-Pipeline::Pipeline(PipelineOptions options) : options_(std::move(options)) { options_.validate(); }
+Pipeline::Pipeline(PipelineOptions options, std::shared_ptr<const StepStore> steps)
+    : options_(std::move(options)), steps_(std::move(steps)) {
+  options_.validate();
+}
 
 PipelineResult Pipeline::run(const std::vector<std::filesystem::path>& paths, const InitialPoses& initial_poses,
                              const RunContext& context, const Survey& survey) const {
@@ -38,7 +41,7 @@ PipelineResult Pipeline::run(std::span<const ScanInput> inputs, const InitialPos
   StageClock clock(result.stages);
   clock.begin("read and sample");
   std::vector<SampledScan> sampled =
-      read_scans(inputs, options, context, paper ? ScanDetail::kNormals : ScanDetail::kLinePieces);
+      read_scans(inputs, options, context, paper ? ScanDetail::kNormals : ScanDetail::kLinePieces, steps_.get());
   // Who asks for the order of the list gets it, and so does the paper, whose reference is the middle one of equals.
   const bool as_listed = paper || options.merge_order == MergeOrder::kFile;
   const std::vector<std::size_t> order = as_listed ? order_of_list(inputs.size()) : order_by_content(sampled);
@@ -52,8 +55,8 @@ PipelineResult Pipeline::run(std::span<const ScanInput> inputs, const InitialPos
   result.warnings = warn_of_units(result.scans, context);
   const InitialPoses guesses = in_order(initial_poses, order);
   result.reference = static_cast<std::size_t>(std::find(order.begin(), order.end(), named) - order.begin());
-  (paper ? run_paper_pipeline : run_robust_pipeline)({sampled, files, guesses, survey, options, context, clock},
-                                                     result);
+  (paper ? run_paper_pipeline : run_robust_pipeline)(
+      {sampled, files, guesses, survey, options, context, clock, steps_.get()}, result);
   clock.end();
   restore_order(order, result);
   for (std::size_t i = 0; i < inputs.size(); ++i) result.poses[i].unit = result.scans[i].unit;

@@ -9,6 +9,7 @@
 #include "scans/scan_sampling.hpp"
 #include "tcm_icp/core/run_context.hpp"
 #include "tcm_icp/pipeline/pipeline.hpp"
+#include "tcm_icp/steps/step_store.hpp"
 
 namespace tcm_icp {
 
@@ -20,6 +21,7 @@ struct PipelineInput {
   const PipelineOptions& options;
   const RunContext& context;
   StageClock& clock;
+  const StepStore* steps = nullptr;  ///< nullptr: nothing is kept
 };
 
 /// Algorithm 1 of the paper, to the letter. Fills in all but scans and stages.

@@ -34,9 +34,18 @@ void select(const PointBlock& block, std::size_t stride, const std::vector<char>
 class CloudOutput {
  public:
   CloudOutput(const fs::path& folder, std::span<const ScanInput> inputs, const PipelineResult& result,
-              const OutputOptions& options, const RunContext& context, const PointWatcher& watcher)
-      : folder_(folder), inputs_(inputs), result_(result), options_(options), context_(context), watcher_(watcher) {
-    for (const auto& input : inputs_) attributes_.push_back(ScanReader(input).attributes());
+              const OutputOptions& options, const RunContext& context, const PointWatcher& watcher,
+              std::optional<std::size_t> only = std::nullopt)
+      : folder_(folder),
+        inputs_(inputs),
+        result_(result),
+        options_(options),
+        context_(context),
+        watcher_(watcher),
+        only_(only) {
+    for (std::size_t i = 0; i < inputs_.size(); ++i) {
+      attributes_.push_back(is_written(i) ? ScanReader(inputs_[i]).attributes() : std::vector<Attribute>());
+    }
     cloud_.format = options.format;
     cloud_.colour = options.colour;
     cloud_.reference = result.scans[result.reference].file;
@@ -46,19 +55,35 @@ class CloudOutput {
       cloud_.crs = result.survey.crs;
       const bool needs_text = wants_text() && !cloud_.crs.empty() && !las_names_crs(cloud_.crs);
       if (needs_text && las_names_crs(options.crs_text)) cloud_.crs = options.crs_text;
-    } else if (options.format == CloudFormat::kE57) {
+    } else if (options.format == CloudFormat::kE57 && !only_) {
       name_coordinate_system();
     }
+  }
+
+  fs::path write_one() {
+    const std::size_t i = only_.value();
+    if (needs_box(options_.format)) measure_boxes();
+    for (std::size_t k = 0; k < i; ++k) {
+      if (is_registered(k)) file_of(result_.poses[k].file);  // names that others take
+    }
+    std::string name;
+    RegisteredCloudWriter own = open_scan(i, name);
+    stream(i, ReadAttributes::kYes,
+           [&](const PointBlock& block) { own.write(i, block, attributes_[i], result_.poses[i].T_reference_scan); });
+    own.finish();
+    warn_of_replaced(own.num_replaced(), "scans/");
+    return fs::path("scans") / name;
   }
 
   void write(std::uint64_t most_voxels) {
     if (needs_box(options_.format)) measure_boxes();
     const std::uint64_t num_parts = count_parts(most_voxels);
     const std::string name = "registered" + std::string(extension_of(options_.format));
-    RegisteredCloudWriter merged(folder_ / name, attributes_, cloud_);
+    std::optional<RegisteredCloudWriter> merged;
+    if (options_.merged) merged.emplace(folder_ / name, attributes_, cloud_);
     for (std::uint64_t part = 0; part < num_parts; ++part) write_part(part, num_parts, merged);
-    merged.finish();
-    warn_of_replaced(merged.num_replaced(), name);
+    if (merged) merged->finish();
+    if (merged) warn_of_replaced(merged->num_replaced(), name);
     warn_of_replaced(num_replaced_in_scans_, "scans/");
     if (wants_text() && !cloud_.crs.empty() && !las_names_crs(cloud_.crs)) {
       context_.warn(name + " does not name the coordinate system " + cloud_.crs + ": the format wants its " +
@@ -75,6 +100,8 @@ class CloudOutput {
   using Use = std::function<void(const PointBlock&)>;
 
   bool wants_text() const { return options_.format == CloudFormat::kLas || options_.format == CloudFormat::kE57; }
+
+  bool is_written(std::size_t i) const { return !only_ || *only_ == i; }
 
   bool is_registered(std::size_t i) const { return result_.poses[i].status != ScanStatus::kUnregistered; }
 
@@ -133,7 +160,7 @@ class CloudOutput {
     double smallest_extent = std::numeric_limits<double>::infinity();
     boxes_.resize(inputs_.size());
     for (std::size_t i = 0; i < inputs_.size(); ++i) {
-      if (!is_registered(i)) continue;
+      if (!is_registered(i) || !is_written(i)) continue;
       const Eigen::Isometry3d& T = result_.poses[i].T_reference_scan;
       stream(i, scales ? ReadAttributes::kYes : ReadAttributes::kNo, [&](const PointBlock& block) {
         for (const auto& point : block.points) boxes_[i].extend(Eigen::Vector3d(T * point));
@@ -165,7 +192,7 @@ class CloudOutput {
     return sample.num_voxels() * kSample / most_voxels + 1;
   }
 
-  void write_part(std::uint64_t part, std::uint64_t num_parts, RegisteredCloudWriter& merged) {
+  void write_part(std::uint64_t part, std::uint64_t num_parts, std::optional<RegisteredCloudWriter>& merged) {
     std::optional<VoxelThinner> thinner;
     if (options_.voxel_m > 0) thinner.emplace(options_.voxel_m, part, num_parts);
     std::vector<char> keep;
@@ -174,15 +201,17 @@ class CloudOutput {
       if (!is_registered(i)) continue;
       const Eigen::Isometry3d& T = result_.poses[i].T_reference_scan;
       std::optional<RegisteredCloudWriter> own;
-      if (options_.each && part == 0) own.emplace(open_scan(i));
+      std::string name;
+      if (options_.each && part == 0) own.emplace(open_scan(i, name));
       stream(i, ReadAttributes::kYes, [&](const PointBlock& block) {
         if (watcher_ && part == 0) watcher_(i, block.points);
         if (own) own->write(i, block, attributes_[i], T);
-        if (!thinner) return merged.write(i, block, attributes_[i], T);
+        if (!merged) return;
+        if (!thinner) return merged->write(i, block, attributes_[i], T);
         keep.resize(block.size());
         for (std::size_t k = 0; k < block.size(); ++k) keep[k] = thinner->takes(T * block.points[k]) ? 1 : 0;
         select(block, attribute_stride(attributes_[i]), keep, thinned);
-        if (thinned.size() > 0) merged.write(i, thinned, attributes_[i], T);
+        if (thinned.size() > 0) merged->write(i, thinned, attributes_[i], T);
       });
       if (!own) continue;
       own->finish();
@@ -190,7 +219,7 @@ class CloudOutput {
     }
   }
 
-  RegisteredCloudWriter open_scan(std::size_t i) {
+  RegisteredCloudWriter open_scan(std::size_t i, std::string& name) {
     RegisteredCloudOptions options = cloud_;
     options.one_scan = true;
     options.point_source_id = static_cast<std::uint16_t>(i < 65535 ? i + 1 : 0);
@@ -198,7 +227,8 @@ class CloudOutput {
       options.box = boxes_[i];
       options.largest_step = options.box.isEmpty() ? 0 : kLargestStep * options.box.sizes().maxCoeff();
     }
-    const fs::path path = folder_ / "scans" / file_of(result_.poses[i].file);
+    name = file_of(result_.poses[i].file);
+    const fs::path path = folder_ / "scans" / name;
     fs::create_directories(path.parent_path());  // "Setup1/scan.ply" is the name of one of several scan.ply
     std::vector<std::vector<Attribute>> attributes(i + 1);
     attributes[i] = attributes_[i];
@@ -241,6 +271,7 @@ class CloudOutput {
   const OutputOptions& options_;
   const RunContext& context_;
   const PointWatcher& watcher_;
+  const std::optional<std::size_t> only_;  ///< the scan that is written alone
   std::vector<std::vector<Attribute>> attributes_;
   RegisteredCloudOptions cloud_;
   std::vector<Eigen::AlignedBox3d> boxes_;  ///< of each registered scan, where the format asks for it
@@ -260,6 +291,13 @@ void write_registered_clouds(const fs::path& folder, std::span<const ScanInput> 
                              const OutputOptions& options, const RunContext& context, std::uint64_t most_voxels,
                              const PointWatcher& watcher) {
   CloudOutput(folder, inputs, result, options, context, watcher).write(most_voxels);
+}
+
+fs::path write_registered_scan(const fs::path& folder, const ScanInput& input, std::size_t scan,
+                               const PipelineResult& result, const OutputOptions& options, const RunContext& context) {
+  const std::vector<ScanInput> inputs(result.poses.size(), input);
+  const PointWatcher nobody;
+  return CloudOutput(folder, inputs, result, options, context, nobody, scan).write_one();
 }
 
 }  // namespace tcm_icp

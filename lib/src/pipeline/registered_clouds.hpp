@@ -27,6 +27,15 @@ void write_registered_clouds(const std::filesystem::path& folder, std::span<cons
                              const PipelineResult& result, const OutputOptions& options, const RunContext& context,
                              std::uint64_t most_voxels = kMostVoxels, const PointWatcher& watcher = {});
 
+/// Writes scans/NAME.EXT of one registered scan into `folder`, bit by bit as the function above does where `each` is
+/// set (but for LAS, whose intensities are scaled by the scan's own range, and E57, which names no coordinate system
+/// where the options do not). @return the file, beneath `folder`
+/// @param result  of all scans: their poses; of this one also the summary
+/// @throws InputError, OutputError, Cancelled
+std::filesystem::path write_registered_scan(const std::filesystem::path& folder, const ScanInput& input,
+                                            std::size_t scan, const PipelineResult& result,
+                                            const OutputOptions& options, const RunContext& context);
+
 /// The same of scans in files.
 inline void write_registered_clouds(const std::filesystem::path& folder,
                                     const std::vector<std::filesystem::path>& paths, const PipelineResult& result,

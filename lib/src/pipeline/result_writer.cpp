@@ -13,6 +13,7 @@
 #include "report/scene.hpp"
 #include "report/scene_sample.hpp"
 #include "report/section_cut.hpp"
+#include "steps/input_digest.hpp"
 #include "tcm_icp/core/error.hpp"
 #include "tcm_icp/core/parallel.hpp"
 #include "tcm_icp/io/output_folder.hpp"
@@ -37,7 +38,7 @@ void add_options(const OutputOptions& clouds, Json& to) {
 }
 
 // Of the file each scan comes from; several scans may be in one. Empty for scans that are in no file.
-std::vector<std::string> check_sums(std::span<const ScanInput> inputs, int num_threads) {
+std::vector<std::string> check_sums(std::span<const ScanInput> inputs, const StepStore* steps, int num_threads) {
   const auto file_of = [](const ScanInput& input) { return parse_scan_path(input.path).file; };
   std::map<fs::path, std::string> sums;
   for (const auto& input : inputs) {
@@ -46,7 +47,10 @@ std::vector<std::string> check_sums(std::span<const ScanInput> inputs, int num_t
   std::vector<std::map<fs::path, std::string>::iterator> files;
   for (auto file = sums.begin(); file != sums.end(); ++file) files.push_back(file);
   parallel_for(num_threads, files.size(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) files[k]->second = sha256_of_file(files[k]->first);
+    for (std::size_t k = begin; k < end; ++k) {
+      const fs::path& file = files[k]->first;
+      files[k]->second = steps != nullptr ? input_digest(*steps, file) : sha256_of_file(file);
+    }
   });
   std::vector<std::string> out;
   for (const auto& input : inputs) out.push_back(input.is_file() ? sums.at(file_of(input)) : "");
@@ -82,19 +86,22 @@ void check_output_folder(const fs::path& folder, bool overwrite) {
 
 void write_result(const fs::path& folder, bool overwrite, std::span<const ScanInput> inputs, PipelineResult& result,
                   const PipelineOptions& options, const OutputOptions& clouds, const RunContext& context,
-                  const RunDescription& description) {
+                  const RunDescription& description, const StepStore* steps) {
   description.report.accept.validate();
   OutputFolder output(folder, overwrite, kMarker);
   StageClock clock(result.stages);
   clock.begin("write");
-  SceneSampler sampler = scene_sampler(result, description.report.view_points);
-  std::vector<SectionCut> sections = choose_sections(result);
+  const bool is_seen = clouds.merged || clouds.each;
+  SceneSampler sampler = scene_sampler(result, is_seen ? description.report.view_points : 0);
+  std::vector<SectionCut> sections = is_seen ? choose_sections(result) : std::vector<SectionCut>();
   SectionCutter cutter(sections, result);
-  write_registered_clouds(output.work(), inputs, result, clouds, context, kMostVoxels,
-                          [&](std::size_t i, std::span<const Eigen::Vector3d> points) {
-                            sampler.add(i, points, result.scans[i].origin);
-                            cutter.add(i, points);
-                          });
+  const auto watch = [&](std::size_t i, std::span<const Eigen::Vector3d> points) {
+    sampler.add(i, points, result.scans[i].origin);
+    cutter.add(i, points);
+  };
+  if (is_seen) {
+    write_registered_clouds(output.work(), inputs, result, clouds, context, kMostVoxels, watch);
+  }
   const Scene scene = make_scene(result, sampler.take(view_cells(result), context.num_threads), context.num_threads);
   write_pose_file(output.work() / "poses.json",
                   {result.scans[result.reference].file, result.poses, result.survey.defined_by,
@@ -108,7 +115,7 @@ void write_result(const fs::path& folder, bool overwrite, std::span<const ScanIn
   }
   fs::create_directory(output.work() / "poses");
   write_pose_exports(output.work() / "poses", result.poses, pose_graph_edges(result));
-  const std::vector<std::string> sums = check_sums(inputs, context.num_threads);
+  const std::vector<std::string> sums = check_sums(inputs, steps, context.num_threads);
   clock.end();
   Json report = report_object(result, options, context, description);
   for (std::size_t i = 0; i < sums.size(); ++i) {
@@ -123,8 +130,8 @@ void write_result(const fs::path& folder, bool overwrite, std::span<const ScanIn
 
 void write_result(const fs::path& folder, bool overwrite, const std::vector<fs::path>& paths, PipelineResult& result,
                   const PipelineOptions& options, const OutputOptions& clouds, const RunContext& context,
-                  const RunDescription& description) {
-  write_result(folder, overwrite, scans_in_files(paths), result, options, clouds, context, description);
+                  const RunDescription& description, const StepStore* steps) {
+  write_result(folder, overwrite, scans_in_files(paths), result, options, clouds, context, description, steps);
 }
 
 }  // namespace tcm_icp

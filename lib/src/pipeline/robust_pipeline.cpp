@@ -12,10 +12,11 @@
 #include "inference/cuts.hpp"
 #include "inference/implied_poses.hpp"
 #include "links/pair_search.hpp"
-#include "merging/merging.hpp"
+#include "pipeline/kept_set.hpp"
 #include "pipeline/pipeline_input.hpp"
 #include "pipeline/scan_set.hpp"
 #include "pipeline/settled_component.hpp"
+#include "pipeline/solve_steps.hpp"
 #include "pipeline/survey_frame.hpp"
 #include "scans/scan_sight.hpp"
 #include "tcm_icp/core/rigid_transform.hpp"
@@ -54,10 +55,11 @@ class RobustPipeline {
   void prepare() {
     in_.clock.begin("prepare");
     resolutions_ = choose_resolutions(in_.sampled, in_.options.sampling, in_.context.num_threads);
+    if (in_.steps != nullptr) keep_lengths();
+    T_init_ = initial_local_poses(in_.initial_poses, in_.sampled, false);
+    result_.viewpoints = find_viewpoints(in_.sampled, in_.context, in_.steps);
     result_.coarse_voxel_m = resolutions_.coarse_m;
     result_.fine_voxel_m = resolutions_.fine_m;
-    T_init_ = initial_local_poses(in_.initial_poses, in_.sampled, false);
-    result_.viewpoints = find_viewpoints(in_.sampled, in_.context);
     scans_ = prepare_scans(in_.sampled, resolutions_, in_.options.samples, in_.context);
     make_sights(result_.viewpoints, in_.context, scans_);
     for (std::size_t i = 0; i < size(); ++i) {
@@ -65,6 +67,22 @@ class RobustPipeline {
       result_.viewpoints[i]->place += in_.sampled[i].scan.origin;
       for (auto& p : result_.viewpoints[i]->alternatives) p += in_.sampled[i].scan.origin;
     }
+  }
+
+  // Those of a smaller set that scans were added to.
+  void keep_lengths() {
+    const KeptSet kept = keep_resolutions(*in_.steps, in_.sampled, in_.options.sampling, resolutions_);
+    kept_.store = in_.steps;
+    if (kept.base.empty()) return;
+    kept_.base = prepared_digests(kept.base, kept.resolutions, in_.options.samples, in_.context.seed);
+    std::ostringstream said;
+    said << "the resolutions are kept from the " << kept.base.size()
+         << " scans that were registered before in the work folder: " << kept.resolutions.coarse_m << " m and "
+         << kept.resolutions.fine_m << " m, where all scans would give " << resolutions_.coarse_m << " m and "
+         << resolutions_.fine_m << " m";
+    resolutions_ = kept.resolutions;
+    in_.context.info(said.str());
+    result_.warnings.push_back(said.str());
   }
 
   // Poses that pairs may have; more are looked for as long as inference leaves a scan without a clear place.
@@ -78,7 +96,7 @@ class RobustPipeline {
     }
     hypotheses_.emplace(resolutions_.coarse_m, median(noise_m), std::move(moments));
     const LinkSearchOptions options{in_.options.formulation, in_.options.lp, in_.options.level};
-    PairSearch search(scans_, options, in_.context);
+    PairSearch search(scans_, options, in_.context, kept_);
     std::vector<bool> wanted(size(), true);
     std::vector<std::size_t> groups(size());
     std::iota(groups.begin(), groups.end(), std::size_t{0});
@@ -148,12 +166,12 @@ class RobustPipeline {
           change_reference(component, result_.reference);
         }
         in_.clock.begin("merge");
-        const auto records = merge_in_tcm_order(scans_, graph, in_.options.merging(), in_.context, component);
+        const auto records = merge_once(in_.steps, scans_, graph, in_.options.merging(), in_.context, component);
         for (const MergeRecord& r : records) in_.context.debug(in_.files[r.scan] + " merged: " + r.reason);
         result_.merges.insert(result_.merges.end(), records.begin(), records.end());
         in_.clock.begin("adjust and verify");
-        settled_.push_back(
-            settle(scans_, *hypotheses_, graph, resolutions_, in_.options, in_.context, std::move(component)));
+        settled_.push_back(settle(scans_, *hypotheses_, graph, resolutions_, in_.options, in_.context,
+                                  std::move(component), in_.steps));
         for (std::size_t i = 0; i < size(); ++i) {
           const Decision& decision = settled_.back().decisions[i];
           if (settled_.back().measurements[i] && !decision.accepted()) {
@@ -313,6 +331,7 @@ class RobustPipeline {
   const PipelineInput& in_;
   PipelineResult& result_;
   Resolutions resolutions_;
+  KeptSearches kept_;
   InitialPoses T_init_;  // common frame of the initial poses <- local frame
   std::vector<PreparedScan> scans_;
   std::optional<HypothesisSet> hypotheses_;

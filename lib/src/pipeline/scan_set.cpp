@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "scans/scan_steps.hpp"
 #include "tcm_icp/core/error.hpp"
 #include "tcm_icp/core/parallel.hpp"
 #include "tcm_icp/core/rigid_transform.hpp"
@@ -128,7 +129,7 @@ void check_inputs(std::span<const ScanInput> inputs, const InitialPoses& initial
 }
 
 std::vector<SampledScan> read_scans(std::span<const ScanInput> inputs, const PipelineOptions& options,
-                                    const RunContext& context, ScanDetail detail) {
+                                    const RunContext& context, ScanDetail detail, const StepStore* steps) {
   // All headers first: the last file's absence should not cost the reading of all others.
   for (const auto& input : inputs) const ScanReader opened(input, ReadAttributes::kNo);
   const std::vector<std::string> names = input_names(inputs);
@@ -139,7 +140,10 @@ std::vector<SampledScan> read_scans(std::span<const ScanInput> inputs, const Pip
     const std::size_t count = std::min(batch, inputs.size() - first);
     parallel_for(context.num_threads, count, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = first + begin; i < first + end; ++i) {
-        scans[i] = sample_scan(inputs[i], options.sampling, options.outliers, context.seed, 1, detail);
+        scans[i] =
+            steps != nullptr
+                ? sample_scan_once(*steps, inputs[i], options.sampling, options.outliers, context.seed, 1, detail)
+                : sample_scan(inputs[i], options.sampling, options.outliers, context.seed, 1, detail);
         scans[i].scan.file = names[i];
       }
     });
@@ -162,6 +166,8 @@ std::vector<PreparedScan> prepare_scans(std::vector<SampledScan>& scans, const R
       prepared[i] = prepare_scan(scans[i], resolutions, options, context.seed);
       scans[i].scan.cloud = Cloud();
       scans[i].surface_normals = Points();
+      if (scans[i].digest.empty()) continue;
+      prepared[i]->digest = prepared_digest(scans[i].digest, resolutions, options, context.seed);
     }
   });
   std::vector<PreparedScan> out;

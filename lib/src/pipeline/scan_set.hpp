@@ -13,6 +13,7 @@
 #include "tcm_icp/graph/correspondence_graph.hpp"
 #include "tcm_icp/io/scan_source.hpp"
 #include "tcm_icp/pipeline/pipeline.hpp"
+#include "tcm_icp/steps/step_store.hpp"
 
 namespace tcm_icp {
 
@@ -32,14 +33,15 @@ void check_survey(std::span<const ScanInput> inputs, const InitialPoses& initial
                   bool paper);
 
 /// sample_scan() for each scan, as many at once as there are threads. Reports "reading".
+/// @param steps  has the samples of scans that were read before, and keeps the others; nullptr: nothing is kept
 /// @throws InputError, InvalidInput, Cancelled
 std::vector<SampledScan> read_scans(std::span<const ScanInput> inputs, const PipelineOptions& options,
-                                    const RunContext& context, ScanDetail detail);
+                                    const RunContext& context, ScanDetail detail, const StepStore* steps = nullptr);
 
 ScanSummary summarize(const SampledScan& scan);
 
 /// prepare_scan() for each scan. The working clouds are given up: the samples stand for them from here on. Reports
-/// "preparing". @throws Cancelled
+/// "preparing". Scans that have a digest are prepared with one. @throws Cancelled
 std::vector<PreparedScan> prepare_scans(std::vector<SampledScan>& scans, const Resolutions& resolutions,
                                         const SampleSizes& options, const RunContext& context);
 

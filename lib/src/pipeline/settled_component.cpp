@@ -14,6 +14,7 @@
 #include "links/verification_at.hpp"
 #include "merging/merged_cloud.hpp"
 #include "pipeline/scan_set.hpp"
+#include "pipeline/solve_steps.hpp"
 #include "tcm_icp/core/even_sample.hpp"
 #include "tcm_icp/core/parallel.hpp"
 
@@ -29,13 +30,14 @@ class Settling {
  public:
   Settling(const std::vector<PreparedScan>& scans, const HypothesisSet& hypotheses, const PairGraph& graph,
            const Resolutions& resolutions, const PipelineOptions& options, const RunContext& context,
-           Component component)
+           Component component, const StepStore* steps)
       : scans_(scans),
         hypotheses_(hypotheses),
         graph_(graph),
         resolutions_(resolutions),
         options_(options),
-        context_(context) {
+        context_(context),
+        steps_(steps) {
     out_.component = std::move(component);
     out_.measurements.resize(scans.size());
     out_.decisions.resize(scans.size());
@@ -72,8 +74,8 @@ class Settling {
     std::vector<Eigen::Isometry3d> T = poses();
     out_.pairs = hypotheses_.without_contradicted(
         overlapping_pairs(scans_, T, membership(), kMinLinkOverlap, context_.num_threads), T);
-    out_.adjustment = adjust_poses(scans_, out_.pairs, out_.component.reference, resolutions_, options_.adjustment,
-                                   options_.lp, context_, T);
+    out_.adjustment = adjust_once(steps_, scans_, out_.pairs, out_.component.reference, resolutions_,
+                                  options_.adjustment, options_.lp, context_, T);
     for (const std::size_t i : out_.component.members()) out_.component.T_reference_scan[i] = T[i];
   }
 
@@ -255,6 +257,7 @@ class Settling {
   const Resolutions& resolutions_;
   const PipelineOptions& options_;
   const RunContext& context_;
+  const StepStore* steps_;
   SettledComponent out_;
   std::vector<LinkMeasurements> link_measurements_;
   std::vector<Cut> cuts_;
@@ -264,8 +267,8 @@ class Settling {
 
 SettledComponent settle(const std::vector<PreparedScan>& scans, const HypothesisSet& hypotheses, const PairGraph& graph,
                         const Resolutions& resolutions, const PipelineOptions& options, const RunContext& context,
-                        Component component) {
-  return Settling(scans, hypotheses, graph, resolutions, options, context, std::move(component)).run();
+                        Component component, const StepStore* steps) {
+  return Settling(scans, hypotheses, graph, resolutions, options, context, std::move(component), steps).run();
 }
 
 }  // namespace tcm_icp

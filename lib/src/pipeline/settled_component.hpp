@@ -13,6 +13,7 @@
 #include "tcm_icp/decision/scan_decision.hpp"
 #include "tcm_icp/pipeline/pipeline_options.hpp"
 #include "tcm_icp/pipeline/pipeline_result.hpp"
+#include "tcm_icp/steps/step_store.hpp"
 
 namespace tcm_icp {
 
@@ -31,8 +32,9 @@ struct SettledComponent {
 /// whose place is ambiguous as a whole, because a wrong neighbour spoils what is measured of right ones; again until
 /// all that are left pass. The reference is judged like the others; where the user named none, the member with the most
 /// overlapping pairs becomes it.
+/// @param steps  has the adjustments that were done before; nullptr: nothing is kept
 SettledComponent settle(const std::vector<PreparedScan>& scans, const HypothesisSet& hypotheses, const PairGraph& graph,
                         const Resolutions& resolutions, const PipelineOptions& options, const RunContext& context,
-                        Component component);
+                        Component component, const StepStore* steps = nullptr);
 
 }  // namespace tcm_icp

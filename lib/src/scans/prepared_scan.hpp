@@ -45,6 +45,7 @@ struct PreparedScan {
   std::string key;        ///< of random numbers: stream_key()
   Ball ball;              ///< all its points lie in it
   Sight sight{};          ///< none until make_sights(); groups of scans have none
+  std::string digest{};   ///< of all that this and the sight depend on; empty without a work folder
 };
 
 /// The median over the scans of the voxel edge at which a scan has the wanted number of voxels.

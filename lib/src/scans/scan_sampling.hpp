@@ -16,6 +16,7 @@ struct SampledScan {
   LinePieces line_pieces;  ///< of the working cloud, if wanted; none where it was thinned
   OutlierRule outliers;
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();  ///< [m] median point of the working cloud
+  std::string digest{};                              ///< of all this depends on; empty without a work folder
 };
 
 /// What is found out about a scan while its neighbours are at hand, each with what stands before it. Who does not need

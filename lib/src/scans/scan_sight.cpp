@@ -2,24 +2,29 @@
 
 #include <array>
 
+#include "scans/scan_steps.hpp"
 #include "tcm_icp/core/parallel.hpp"
 #include "tcm_icp/core/random.hpp"
 
 namespace tcm_icp {
 
-std::vector<std::optional<Viewpoint>> find_viewpoints(const std::vector<SampledScan>& scans,
-                                                      const RunContext& context) {
+std::optional<Viewpoint> find_viewpoint_of(const SampledScan& sampled, std::uint64_t seed) {
+  const Scan& scan = sampled.scan;
+  // Scan lines tell it sharply, where there are any, and also outdoors, where little hides behind anything.
+  Rng for_lines = make_stream(seed, "scan lines", stream_key(scan));
+  if (auto found = find_viewpoint_by_lines(scan.cloud, sampled.line_pieces, for_lines)) return found;
+  Rng rng = make_stream(seed, "viewpoint", stream_key(scan));
+  return find_viewpoint(scan.cloud, std::array{Eigen::Vector3d(-scan.origin)}, rng);
+}
+
+std::vector<std::optional<Viewpoint>> find_viewpoints(const std::vector<SampledScan>& scans, const RunContext& context,
+                                                      const StepStore* steps) {
   context.report("finding viewpoints", 0, scans.size());
   std::vector<std::optional<Viewpoint>> out(scans.size());
   parallel_for(context.num_threads, scans.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      const Scan& scan = scans[i].scan;
-      // Scan lines tell it sharply, where there are any, and also outdoors, where little hides behind anything.
-      Rng for_lines = make_stream(context.seed, "scan lines", stream_key(scan));
-      out[i] = find_viewpoint_by_lines(scan.cloud, scans[i].line_pieces, for_lines);
-      if (out[i]) continue;
-      Rng rng = make_stream(context.seed, "viewpoint", stream_key(scan));
-      out[i] = find_viewpoint(scan.cloud, std::array{Eigen::Vector3d(-scan.origin)}, rng);
+      out[i] = steps != nullptr ? find_viewpoint_once(*steps, scans[i], context.seed)
+                                : find_viewpoint_of(scans[i], context.seed);
     }
   });
   return out;

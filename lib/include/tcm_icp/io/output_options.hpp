@@ -30,6 +30,8 @@ struct OutputOptions {
   /// LAS, E57: well-known text of the survey frame's coordinate system where its name is a code the library does not
   /// know; empty: not known.
   std::string crs_text = {};
+  /// registered.EXT is written. Without it and without `each` no point is read again: there are no pictures either.
+  bool merged = true;
 
   void validate() const;  ///< throws InvalidOptions naming field, value and bound
 };

@@ -10,6 +10,12 @@
 
 namespace tcm_icp {
 
+/// Cells of the maps, common to all scans that are compared.
+struct CorrelationGrid {
+  double cell_m = 0;
+  int size = 0;  ///< cells an edge; 0: follows from the scans
+};
+
 struct HeightCorrelationOptions {
   int cells_across = 80;           ///< >= 16; cells a typical scan is wide in the search; twice as many decide
   int max_grid = 384;              ///< >= 64; cells the search grid is wide at most; longer scans get larger cells
@@ -18,6 +24,7 @@ struct HeightCorrelationOptions {
   int max_candidates = 5;          ///< >= 1; per pair
   VerticalOptions vertical;
   HeightMapOptions map;
+  CorrelationGrid grid;   ///< choose_correlation_grid() of a set that the scans belong to, or nothing
   void validate() const;  ///< throws InvalidOptions
 };
 
@@ -33,6 +40,11 @@ struct ScanPair {
   std::size_t source = 0;
   std::vector<UpPair> ups{};  ///< to search; none: all there are
 };
+
+/// The grid that the functions below take for these scans: all pairs of a set have one, also where some of them are
+/// looked at alone. @throws InvalidInput  as they do
+CorrelationGrid choose_correlation_grid(const std::vector<const Cloud*>& scans, const HeightCorrelationOptions& options,
+                                        int num_threads);
 
 /// For each pair up to max_candidates clearly different poses, the best score first. Score: mean of the normalised
 /// correlations of heights and of walls over the shared cells, by the root of twice their number; a pose by chance has

@@ -18,14 +18,14 @@ class ScanWords {
 
   /// @param scans  described with the same levels
   /// @throws InvalidInput  where the levels of two scans differ in number
-  /// Cost: keypoints times words, some 50 ms a scan; memory of some thousand numbers a scan. The same bits for any number
-  /// of threads.
+  /// Cost: keypoints times words, some 50 ms a scan; memory of some thousand numbers a scan. The same bits for any
+  /// number of threads.
   ScanWords(const std::vector<DescribedScan>& scans, int num_threads);
 
   std::size_t size() const { return levels_.empty() ? 0 : levels_.front().size(); }
 
-  /// How alike a scan is to each of the set: cosines of their words, in mean over the levels, 0..1. They rank partners of
-  /// one scan, and are no verdict: scans far apart may have the same surfaces. Cost: words times scans.
+  /// How alike a scan is to each of the set: cosines of their words, in mean over the levels, 0..1. They rank partners
+  /// of one scan, and are no verdict: scans far apart may have the same surfaces. Cost: words times scans.
   std::vector<double> likeness(std::size_t scan) const;
 
  private:
@@ -33,7 +33,7 @@ class ScanWords {
     std::uint32_t number;
     float weight;
   };
-  using Bag = std::vector<Word>;         // ascending numbers, of length 1
+  using Bag = std::vector<Word>;          // ascending numbers, of length 1
   std::vector<std::vector<Bag>> levels_;  // by level and scan
 };
 

@@ -13,9 +13,9 @@ struct InferenceOptions {
   double most_log_odds = 8;  ///< > 0; of one hypothesis: no pair is surer
   /// >= 0; deviation, over sets, of a constant in the log-odds of all hypotheses of a set: what simulated sets have.
   double set_spread = 1;
-  int max_starts = 24;    ///< >= 1; strongest hypotheses that configurations are grown from
-  /// >= 1; scans that all starts together grow, so that cost stays linear in them: of large sets two starts at least are
-  /// left, and moves reach what further ones would.
+  int max_starts = 24;  ///< >= 1; strongest hypotheses that configurations are grown from
+  /// >= 1; scans that all starts together grow, so that cost stays linear in them: of large sets two starts at least
+  /// are left, and moves reach what further ones would.
   int max_grown_scans = 300;
   int max_sweeps = 10;    ///< >= 1; of moves of single scans and of groups
   void validate() const;  ///< throws InvalidOptions

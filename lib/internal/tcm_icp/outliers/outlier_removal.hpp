@@ -8,6 +8,7 @@
 
 #include "tcm_icp/core/cloud.hpp"
 #include "tcm_icp/core/random.hpp"
+#include "tcm_icp/core/voxel_sampler.hpp"
 
 namespace tcm_icp {
 
@@ -41,6 +42,16 @@ struct OutlierSummary {
   std::size_t num_outliers = 0;         ///< points of the working cloud
 };
 
+/// A rule as plain values, to be kept.
+struct OutlierRuleState {
+  bool keeps_all = true;
+  Points centroids;              ///< kKMeans; empty for the others
+  double threshold_m = 0;        ///< kKMeans
+  std::vector<VoxelKey> voxels;  ///< kDistance, kLof: whose points are outliers, in ascending order
+  double voxel_size_m = 0;       ///< kDistance, kLof
+  OutlierSummary summary;
+};
+
 /// A decision about points in the frame of the working cloud it was learned from. Copies share one state. Thread-safe.
 class OutlierRule {
  public:
@@ -49,10 +60,13 @@ class OutlierRule {
   /// The rule that keeps every point.
   OutlierRule();
   OutlierRule(std::shared_ptr<const Impl> impl, OutlierSummary summary);
+  /// The rule that had this state.
+  explicit OutlierRule(const OutlierRuleState& state);
 
   /// kKMeans: O(log k); otherwise one look-up. A point that is not finite is an outlier.
   bool is_outlier(const Eigen::Vector3d& p) const;
   const OutlierSummary& summary() const { return summary_; }
+  OutlierRuleState state() const;
 
  private:
   std::shared_ptr<const Impl> impl_;

@@ -2,6 +2,7 @@
 // TCM-ICP from files to poses: Algorithm 1 of the paper, one call a line.
 
 #include <filesystem>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -9,14 +10,17 @@
 #include "tcm_icp/io/scan_source.hpp"
 #include "tcm_icp/pipeline/pipeline_options.hpp"
 #include "tcm_icp/pipeline/pipeline_result.hpp"
+#include "tcm_icp/steps/step_store.hpp"
 #include "tcm_icp/survey/survey.hpp"
 
 namespace tcm_icp {
 
 class Pipeline {
  public:
+  /// @param steps  keeps what is done on the way and has what was done before (robust profile); nullptr: nothing is
+  /// kept
   /// @throws InvalidOptions
-  explicit Pipeline(PipelineOptions options);
+  explicit Pipeline(PipelineOptions options, std::shared_ptr<const StepStore> steps = nullptr);
 
   /// Registers the scans. Raw points stream by once; memory follows the working clouds.
   /// @param initial_poses  one a scan; a scan without one is found by its links, or taken as it lies (paper profile)
@@ -36,6 +40,7 @@ class Pipeline {
 
  private:
   PipelineOptions options_;
+  std::shared_ptr<const StepStore> steps_;
 };
 
 }  // namespace tcm_icp

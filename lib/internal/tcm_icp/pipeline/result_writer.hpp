@@ -13,6 +13,7 @@
 #include "tcm_icp/pipeline/pipeline_options.hpp"
 #include "tcm_icp/pipeline/pipeline_result.hpp"
 #include "tcm_icp/pipeline/report_options.hpp"
+#include "tcm_icp/steps/step_store.hpp"
 
 namespace tcm_icp {
 
@@ -36,14 +37,15 @@ void check_output_folder(const std::filesystem::path& folder, bool overwrite);
 
 /// Writes all files into a temporary folder beside `folder` and renames it: a failed run leaves nothing. The raw points
 /// stream by a second time: outliers are left out, attributes kept. The time it takes is added to result.stages.
+/// @param steps  has the check sums of files that it knows; nullptr: files are read for them
 /// @throws InputError, OutputError, Cancelled
 void write_result(const std::filesystem::path& folder, bool overwrite, std::span<const ScanInput> inputs,
                   PipelineResult& result, const PipelineOptions& options, const OutputOptions& clouds,
-                  const RunContext& context, const RunDescription& description);
+                  const RunContext& context, const RunDescription& description, const StepStore* steps = nullptr);
 
 /// The same of scans in files.
 void write_result(const std::filesystem::path& folder, bool overwrite, const std::vector<std::filesystem::path>& paths,
                   PipelineResult& result, const PipelineOptions& options, const OutputOptions& clouds,
-                  const RunContext& context, const RunDescription& description);
+                  const RunContext& context, const RunDescription& description, const StepStore* steps = nullptr);
 
 }  // namespace tcm_icp

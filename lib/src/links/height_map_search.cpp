@@ -1,0 +1,113 @@
+#include "links/height_map_search.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <limits>
+#include <map>
+#include <tuple>
+
+#include "links/pair_steps.hpp"
+
+namespace tcm_icp {
+namespace {
+
+// Pairs whose height maps are compared together: they share transforms; what is cut off is done again.
+constexpr std::size_t kBlock = 100;
+
+}  // namespace
+
+HeightMapSearch::HeightMapSearch(const std::vector<PreparedScan>& scans, bool levelled, const RunContext& context,
+                                 const KeptSearches& kept)
+    : scans_(scans), levelled_(levelled), context_(context), kept_(kept) {}
+
+HeightCorrelationOptions HeightMapSearch::screening_on(const CorrelationGrid& grid) const {
+  HeightCorrelationOptions options = screening_options();
+  options.vertical.levelled = levelled_;
+  options.grid = grid;
+  return options;
+}
+
+HeightCorrelationOptions HeightMapSearch::full_on(const CorrelationGrid& grid) const {
+  HeightCorrelationOptions options;
+  options.vertical.levelled = levelled_;
+  options.grid = grid;
+  return options;
+}
+
+std::vector<HeightMapGrids> HeightMapSearch::grids_of(const ScanPairs& pairs) {
+  if (of_scans_.empty()) {
+    const auto of_scans = [&](const HeightCorrelationOptions& options) {
+      if (kept_.store != nullptr) return grids_once(*kept_.store, scans_, kept_.base, options, context_.num_threads);
+      std::vector<const Cloud*> clouds;
+      for (const auto& scan : scans_) clouds.push_back(&scan.fine.cloud);
+      return std::vector<CorrelationGrid>(scans_.size(),
+                                          choose_correlation_grid(clouds, options, context_.num_threads));
+    };
+    const auto screening = of_scans(screening_on({})), full = of_scans(full_on({}));
+    for (std::size_t i = 0; i < scans_.size(); ++i) of_scans_.push_back({screening[i], full[i]});
+  }
+  std::vector<HeightMapGrids> out;
+  for (const auto& [a, b] : pairs) {
+    out.push_back({grid_of_pair(of_scans_[a].screening, of_scans_[b].screening),
+                   grid_of_pair(of_scans_[a].full, of_scans_[b].full)});
+  }
+  return out;
+}
+
+std::vector<std::vector<PoseCandidate>> HeightMapSearch::candidates(const ScanPairs& pairs,
+                                                                    const std::vector<HeightMapGrids>& grids) const {
+  std::vector<std::vector<PoseCandidate>> out(pairs.size());
+  const auto key = [&](std::size_t k) {
+    return height_map_key(scans_[pairs[k].first], scans_[pairs[k].second], screening_on(grids[k].screening),
+                          full_on(grids[k].full));
+  };
+  std::map<std::tuple<double, int, double, int>, std::vector<std::size_t>> missing;  // by grids
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    auto known = kept_.store != nullptr ? find_candidates(*kept_.store, key(k)) : std::nullopt;
+    if (known) out[k] = std::move(*known);
+    const auto& [screening, full] = grids[k];
+    if (!known) missing[{screening.cell_m, screening.size, full.cell_m, full.size}].push_back(k);
+  }
+  for (const auto& [grid, places] : missing) {
+    const std::size_t num_blocks = (places.size() + kBlock - 1) / kBlock;
+    for (std::size_t number = 0; number < num_blocks; ++number) {
+      const std::size_t first = places.size() * number / num_blocks;
+      const std::size_t size = places.size() * (number + 1) / num_blocks - first;
+      context_.report("comparing height maps", first, places.size());
+      ScanPairs block;
+      for (std::size_t i = first; i < first + size; ++i) block.push_back(pairs[places[i]]);
+      const auto start = std::chrono::steady_clock::now();
+      auto found = search(block, grids[places[first]]);
+      const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+      for (std::size_t i = 0; i < size; ++i) {
+        const std::size_t k = places[first + i];
+        if (kept_.store != nullptr) {
+          save_candidates(*kept_.store, key(k), found[i], elapsed.count() / static_cast<double>(size));
+        }
+        out[k] = std::move(found[i]);
+      }
+    }
+  }
+  return out;
+}
+
+std::vector<std::vector<PoseCandidate>> HeightMapSearch::search(const ScanPairs& pairs,
+                                                                const HeightMapGrids& grids) const {
+  constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+  std::vector<const Cloud*> clouds;  // of the scans that are in a pair
+  std::vector<std::size_t> place(scans_.size(), kNone);
+  std::vector<ScanPair> wanted;
+  for (const auto& [a, b] : pairs) {
+    for (const std::size_t i : {a, b}) {
+      if (place[i] != kNone) continue;
+      place[i] = clouds.size();
+      clouds.push_back(&scans_[i].fine.cloud);
+    }
+    wanted.push_back({place[a], place[b]});
+  }
+  const auto screened = screen_by_height_maps(clouds, wanted, screening_on(grids.screening), context_.num_threads);
+  for (std::size_t k = 0; k < wanted.size(); ++k) wanted[k].ups = screened[k].ups;
+  return correlate_height_maps(clouds, wanted, full_on(grids.full), context_.num_threads);
+}
+
+}  // namespace tcm_icp

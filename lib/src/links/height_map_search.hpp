@@ -1,0 +1,52 @@
+#pragma once
+// Poses of pairs by their height maps: screened for the ways to be up, searched, and kept where there is a work folder.
+
+#include <string>
+#include <vector>
+
+#include "scans/prepared_scan.hpp"
+#include "tcm_icp/coarse/height_correlation.hpp"
+#include "tcm_icp/core/run_context.hpp"
+#include "tcm_icp/steps/step_store.hpp"
+
+namespace tcm_icp {
+
+/// What was searched and fitted before, for scans that have digests.
+struct KeptSearches {
+  const StepStore* store = nullptr;  ///< nullptr: nothing is kept
+  /// Digests of the scans, in their order, of a set whose scans are among these: what was found of its pairs holds.
+  std::vector<std::string> base;
+};
+
+/// Of a pair's maps: those of the set, so that it makes no difference which pairs are looked at together.
+struct HeightMapGrids {
+  CorrelationGrid screening, full;
+};
+
+class HeightMapSearch {
+ public:
+  /// Keeps references: all must outlive the search.
+  HeightMapSearch(const std::vector<PreparedScan>& scans, bool levelled, const RunContext& context,
+                  const KeptSearches& kept);
+
+  /// Of each pair. Cost: that of finding what is up in every scan, once.
+  std::vector<HeightMapGrids> grids_of(const ScanPairs& pairs);
+
+  /// Candidates of each pair: those that are kept; of the others a block at a time is searched and kept.
+  /// @param grids  of each pair, of this set or a larger one
+  std::vector<std::vector<PoseCandidate>> candidates(const ScanPairs& pairs,
+                                                     const std::vector<HeightMapGrids>& grids) const;
+
+ private:
+  std::vector<std::vector<PoseCandidate>> search(const ScanPairs& pairs, const HeightMapGrids& grids) const;
+  HeightCorrelationOptions screening_on(const CorrelationGrid& grid) const;
+  HeightCorrelationOptions full_on(const CorrelationGrid& grid) const;
+
+  const std::vector<PreparedScan>& scans_;
+  bool levelled_;
+  const RunContext& context_;
+  const KeptSearches& kept_;
+  std::vector<HeightMapGrids> of_scans_;  // once they are asked for
+};
+
+}  // namespace tcm_icp
