@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <set>
 #include <span>
 #include <string>
@@ -59,7 +60,7 @@ struct Search {
   double cell_m = 0;
   int grid_size = 0;
 
-  void find_footprints(const std::vector<const Cloud*>& clouds);
+  void find_footprints(const std::vector<const Cloud*>& clouds, const std::vector<std::size_t>& members);
   void choose_grid();
   void make_maps(const std::vector<const Cloud*>& clouds, const std::vector<std::size_t>& members, bool for_candidates);
   void drop_maps(const std::vector<std::size_t>& members);
@@ -73,15 +74,24 @@ struct Search {
   double heading_step_rad() const { return EIGEN_PI / 2 / steps_per_quarter(); }
 };
 
-void Search::find_footprints(const std::vector<const Cloud*>& clouds) {
+// Those that are not known yet.
+void Search::find_footprints(const std::vector<const Cloud*>& clouds, const std::vector<std::size_t>& members) {
   scans.resize(clouds.size());
-  parallel_for(num_threads, clouds.size(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
+  parallel_for(num_threads, members.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t m = begin; m < end; ++m) {
+      const std::size_t i = members[m];
+      if (!scans[i].footprints.empty()) continue;
       for (const auto& up : find_up_directions(*clouds[i], options.vertical)) {
         scans[i].footprints.push_back(find_footprint(clouds[i]->points, up));
       }
     }
   });
+}
+
+std::vector<std::size_t> all_of(const std::vector<const Cloud*>& clouds) {
+  std::vector<std::size_t> out(clouds.size());
+  std::iota(out.begin(), out.end(), std::size_t{0});
+  return out;
 }
 
 void Search::choose_grid() {
@@ -282,11 +292,12 @@ void search_in_blocks(const std::vector<const Cloud*>& scans, const std::vector<
   check_pairs(scans.size(), pairs);
   if (pairs.empty()) return;
   Search search{options, num_threads, {}};
-  search.find_footprints(scans);
+  if (options.grid.size == 0) search.find_footprints(scans, all_of(scans));
   search.choose_grid();
   std::vector<std::size_t> members;
   for (std::size_t begin = 0; begin < pairs.size();) {
     const std::size_t end = next_block(pairs, begin, members);
+    search.find_footprints(scans, members);
     search.make_maps(scans, members, for_candidates);
     const auto block = std::span(pairs).subspan(begin, end - begin);
     use(search, begin, search.correlate(block, members, for_candidates ? kPeaksRefined : kPeaksScreened));
@@ -301,7 +312,7 @@ CorrelationGrid choose_correlation_grid(const std::vector<const Cloud*>& scans, 
                                         int num_threads) {
   options.validate();
   Search search{options, num_threads, {}};
-  search.find_footprints(scans);
+  search.find_footprints(scans, all_of(scans));
   search.choose_grid();
   return {search.cell_m, search.grid_size};
 }

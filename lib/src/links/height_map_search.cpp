@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <limits>
 #include <map>
 #include <tuple>
 
@@ -55,7 +54,7 @@ std::vector<HeightMapGrids> HeightMapSearch::grids_of(const ScanPairs& pairs) {
 }
 
 std::vector<std::vector<PoseCandidate>> HeightMapSearch::candidates(const ScanPairs& pairs,
-                                                                    const std::vector<HeightMapGrids>& grids) const {
+                                                                    const std::vector<HeightMapGrids>& grids) {
   std::vector<std::vector<PoseCandidate>> out(pairs.size());
   const auto key = [&](std::size_t k) {
     return height_map_key(scans_[pairs[k].first], scans_[pairs[k].second], screening_on(grids[k].screening),
@@ -91,23 +90,41 @@ std::vector<std::vector<PoseCandidate>> HeightMapSearch::candidates(const ScanPa
   return out;
 }
 
-std::vector<std::vector<PoseCandidate>> HeightMapSearch::search(const ScanPairs& pairs,
-                                                                const HeightMapGrids& grids) const {
-  constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
-  std::vector<const Cloud*> clouds;  // of the scans that are in a pair
-  std::vector<std::size_t> place(scans_.size(), kNone);
-  std::vector<ScanPair> wanted;
-  for (const auto& [a, b] : pairs) {
-    for (const std::size_t i : {a, b}) {
-      if (place[i] != kNone) continue;
-      place[i] = clouds.size();
-      clouds.push_back(&scans_[i].fine.cloud);
-    }
-    wanted.push_back({place[a], place[b]});
+std::vector<double> HeightMapSearch::scores(const ScanPairs& pairs) {
+  const std::vector<HeightMapGrids> grids = grids_of(pairs);
+  std::map<std::pair<double, int>, ScanPairs> by_grid;
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    by_grid[{grids[k].screening.cell_m, grids[k].screening.size}].push_back(pairs[k]);
   }
-  const auto screened = screen_by_height_maps(clouds, wanted, screening_on(grids.screening), context_.num_threads);
-  for (std::size_t k = 0; k < wanted.size(); ++k) wanted[k].ups = screened[k].ups;
-  return correlate_height_maps(clouds, wanted, full_on(grids.full), context_.num_threads);
+  for (const auto& [grid, on_it] : by_grid) screen(on_it, {grid.first, grid.second});
+  std::vector<double> out;
+  for (const auto& pair : pairs) out.push_back(screened_.at(pair).score);
+  return out;
+}
+
+std::vector<std::vector<PoseCandidate>> HeightMapSearch::search(const ScanPairs& pairs, const HeightMapGrids& grids) {
+  screen(pairs, grids.screening);
+  std::vector<ScanPair> wanted;
+  for (const auto& pair : pairs) wanted.push_back({pair.first, pair.second, screened_.at(pair).ups});
+  return correlate_height_maps(clouds(), wanted, full_on(grids.full), context_.num_threads);
+}
+
+// What was not screened yet.
+void HeightMapSearch::screen(const ScanPairs& pairs, const CorrelationGrid& grid) {
+  std::vector<ScanPair> open;
+  for (const auto& pair : pairs) {
+    if (!screened_.contains(pair)) open.push_back({pair.first, pair.second});
+  }
+  auto found = screen_by_height_maps(clouds(), open, screening_on(grid), context_.num_threads);
+  for (std::size_t k = 0; k < open.size(); ++k) {
+    screened_.emplace(ScanPairs::value_type(open[k].target, open[k].source), std::move(found[k]));
+  }
+}
+
+std::vector<const Cloud*> HeightMapSearch::clouds() const {
+  std::vector<const Cloud*> out;
+  for (const auto& scan : scans_) out.push_back(&scan.fine.cloud);
+  return out;
 }
 
 }  // namespace tcm_icp

@@ -1,6 +1,7 @@
 #pragma once
 // Poses of pairs by their height maps: screened for the ways to be up, searched, and kept where there is a work folder.
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -34,11 +35,15 @@ class HeightMapSearch {
 
   /// Candidates of each pair: those that are kept; of the others a block at a time is searched and kept.
   /// @param grids  of each pair, of this set or a larger one
-  std::vector<std::vector<PoseCandidate>> candidates(const ScanPairs& pairs,
-                                                     const std::vector<HeightMapGrids>& grids) const;
+  std::vector<std::vector<PoseCandidate>> candidates(const ScanPairs& pairs, const std::vector<HeightMapGrids>& grids);
+
+  /// How likely pairs overlap, by coarse maps (PairScreening::score).
+  std::vector<double> scores(const ScanPairs& pairs);
 
  private:
-  std::vector<std::vector<PoseCandidate>> search(const ScanPairs& pairs, const HeightMapGrids& grids) const;
+  std::vector<std::vector<PoseCandidate>> search(const ScanPairs& pairs, const HeightMapGrids& grids);
+  void screen(const ScanPairs& pairs, const CorrelationGrid& grid);
+  std::vector<const Cloud*> clouds() const;
   HeightCorrelationOptions screening_on(const CorrelationGrid& grid) const;
   HeightCorrelationOptions full_on(const CorrelationGrid& grid) const;
 
@@ -46,7 +51,8 @@ class HeightMapSearch {
   bool levelled_;
   const RunContext& context_;
   const KeptSearches& kept_;
-  std::vector<HeightMapGrids> of_scans_;  // once they are asked for
+  std::vector<HeightMapGrids> of_scans_;                     // once they are asked for
+  std::map<ScanPairs::value_type, PairScreening> screened_;  // the same
 };
 
 }  // namespace tcm_icp

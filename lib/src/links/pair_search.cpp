@@ -22,7 +22,9 @@ namespace {
 // Height maps first: they are cheap and cover a whole set at once. Local features are asked where those left scans
 // alone, and then slides, which need poses to start from.
 
-// A scan overlaps few others much. Where there are more, they are ranked by what their surfaces look like.
+// A scan overlaps few others much. Where there are more, they are ranked. In a set so small that a scan may be compared
+// with all others in the end, coarse height maps of all pairs do, which cost least; in others words choose, from scans
+// that are described once.
 constexpr std::size_t kFirstPartners = 6;
 // Of those that look alike so many times as many are aligned by features, which tell far better who overlaps.
 constexpr std::size_t kAlignedByReach = 4;
@@ -107,10 +109,6 @@ struct PairSearch::Impl {
       if (groups[j] != groups[scan]) out.push_back(j);
     }
     if (out.size() <= reach[scan]) return out;
-    if (!words) {
-      describe();
-      words.emplace(described, context.num_threads);
-    }
     const auto keep_best = [&](const std::vector<double>& score, std::size_t count) {
       if (out.size() <= count) return;
       const auto end = out.begin() + static_cast<std::ptrdiff_t>(count);
@@ -119,16 +117,42 @@ struct PairSearch::Impl {
       });
       out.erase(end, out.end());
     };
-    keep_best(words->likeness(scan), kAlignedByReach * reach[scan]);
+    if (is_large()) {
+      if (!words) {
+        describe();
+        words.emplace(described, context.num_threads);
+      }
+      keep_best(words->likeness(scan), kAlignedByReach * reach[scan]);
+    }
     ScanPairs pairs;
     for (const std::size_t j : out) pairs.push_back(std::minmax(scan, j));
-    align(pairs);
+    const std::vector<double> of_pairs =
+        scans.size() > kMostPartners + 1 ? feature_scores(pairs) : height_maps.scores(pairs);
     std::vector<double> score(scans.size(), 0);
-    for (std::size_t k = 0; k < out.size(); ++k) {
-      const std::vector<PoseCandidate>& found = aligned.at(pairs[k]);
-      if (!found.empty()) score[out[k]] = found.front().score;
-    }
+    for (std::size_t k = 0; k < out.size(); ++k) score[out[k]] = of_pairs[k];
     keep_best(score, reach[scan]);
+    return out;
+  }
+
+  bool is_large() const { return scans.size() > kMostPartners + 1; }
+
+  // All pairs at once: they share transforms.
+  std::vector<double> height_map_scores(const ScanPairs& pairs) {
+    ScanPairs all;
+    for (std::size_t a = 0; a < scans.size(); ++a) {
+      for (std::size_t b = a + 1; b < scans.size(); ++b) all.emplace_back(a, b);
+    }
+    height_maps.scores(all);
+    return height_maps.scores(pairs);
+  }
+
+  std::vector<double> feature_scores(const ScanPairs& pairs) {
+    align(pairs);
+    std::vector<double> out;
+    for (const auto& pair : pairs) {
+      const std::vector<PoseCandidate>& found = aligned.at(pair);
+      out.push_back(found.empty() ? 0 : found.front().score);
+    }
     return out;
   }
 
