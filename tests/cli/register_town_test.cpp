@@ -140,13 +140,14 @@ TEST_F(RegisterTown, ReportsWhatItDid) {
   EXPECT_GE(report["merges"].size(), 5U);
   for (const auto& merge : report["merges"]) {
     EXPECT_GE(merge["tcm"]["tau"], 0);
-    EXPECT_GT(merge["iterations"]["simplex_pivots"], 0);
+    EXPECT_EQ(merge["simplex"]["termination"], "not run") << "inferred poses are adjusted";
     EXPECT_EQ(merge["iterations"]["sum"], merge["iterations"]["simplex_pivots"].get<int>() +
                                               merge["iterations"]["descent_steps"].get<int>() +
                                               merge["iterations"]["annealing_steps"].get<int>());
   }
   EXPECT_EQ(report["adjustment"]["lp_status"], "optimal");
   EXPECT_EQ(report["adjustment"]["lp"]["programs"], 2);
+  EXPECT_GT(report["adjustment"]["lp"]["pivots"], 0);
   EXPECT_LT(report["adjustment"]["lp"]["largest_relative_duality_gap"], 1e-7);
   EXPECT_GE(report["links"].size(), 5U);
   for (const auto& link : report["links"]) {

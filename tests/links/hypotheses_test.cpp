@@ -174,41 +174,53 @@ TEST_F(HypothesisSetTest, TheGraphHasThePairsOfOpenScans) {
 }
 
 // Of pairs of the first three scans, as the true poses have them.
-class WithoutContradicted : public HypothesisSetTest {
+class WithoutUnlikely : public HypothesisSetTest {
  protected:
   void compare(std::size_t a, std::size_t b, double off_m) { set_->add(a, b, {aside(a, b, off_m)}); }
-  Pairs kept() const { return set_->without_contradicted(all_, T_); }
+  Pairs kept() const {
+    set_->score();
+    return set_->without_unlikely(all_, T_);
+  }
   const Pairs all_{{0, 1}, {1, 2}, {0, 2}};
 };
 
-TEST_F(WithoutContradicted, APairWhoseHypothesesLeadElsewhereIsLeftOut) {
+TEST_F(WithoutUnlikely, APairWhoseHypothesesLeadElsewhereIsLeftOut) {
   compare(0, 1, 0.1);
   compare(1, 2, -0.1);
   compare(0, 2, 3);
   EXPECT_EQ(kept(), (Pairs{{0, 1}, {1, 2}}));
 }
 
-TEST_F(WithoutContradicted, APairComparedInVainIsLeftOut) {
+TEST_F(WithoutUnlikely, APairComparedInVainIsLeftOut) {
   compare(0, 1, 0);
   compare(1, 2, 0);
   set_->add(0, 2, {});
   EXPECT_EQ(kept(), (Pairs{{0, 1}, {1, 2}}));
 }
 
-TEST_F(WithoutContradicted, NotWhereItAloneConnectsItsScans) {
+TEST_F(WithoutUnlikely, APairThatLeadsThereButIsLikelierWrongIsLeftOut) {
+  compare(0, 1, 0);
+  compare(1, 2, 0);
+  set_->add(0, 2, {aside(0, 2, 0, 0.02)});
+  EXPECT_EQ(kept(), (Pairs{{0, 1}, {1, 2}}));
+  ASSERT_LT(of(0, 2).front().log_odds, 0);
+  ASSERT_GT(of(0, 1).front().log_odds, 0);
+}
+
+TEST_F(WithoutUnlikely, NotWhereItAloneConnectsItsScans) {
   compare(0, 1, 0);
   compare(1, 2, 3);
   compare(0, 2, 3);
   EXPECT_EQ(kept(), all_);
 }
 
-TEST_F(WithoutContradicted, PairsThatWereNotComparedStay) {
+TEST_F(WithoutUnlikely, PairsThatWereNotComparedStay) {
   compare(0, 1, 0);
   compare(1, 2, 0);
   EXPECT_EQ(kept(), all_);
 }
 
-TEST_F(WithoutContradicted, TheRightOneOfSeveralHypothesesIsEnough) {
+TEST_F(WithoutUnlikely, TheRightOneOfSeveralHypothesesIsEnough) {
   compare(0, 1, 0);
   compare(1, 2, 0);
   set_->add(0, 2, {aside(0, 2, 3), aside(0, 2, 0.1)});

@@ -126,6 +126,37 @@ TEST_F(MergingTest, WhatCannotBeFittedIsMergedWhereItsLinksLead) {
   EXPECT_TRUE(testing::is_pose_near(inferred, *component_.T_reference_scan[1], 0, 0));
 }
 
+TEST_F(MergingTest, WithoutFitsPosesStayWhereInferenceHasPutThem) {
+  put_off(0.02, voxel_m());
+  for (std::size_t i = 1; i < 5; ++i) join(0, i);
+  const Component inferred = component_;
+  options_.fits = false;
+  const auto records = merge();
+  ASSERT_EQ(records.size(), 4u);
+  for (const auto& record : records) {
+    EXPECT_TRUE(record.accepted);
+    EXPECT_EQ(record.simplex.termination, Termination::kNotRun);
+    EXPECT_GT(record.tcm.tau(), 0);
+    EXPECT_TRUE(testing::is_pose_near(*inferred.T_reference_scan[record.scan],
+                                      *component_.T_reference_scan[record.scan], 0, 0));
+  }
+}
+
+// Inference has put 1 and all that hangs by it aside by more than one pose: once 1 is fitted, its follower goes along.
+TEST_F(MergingTest, WhatAFitMovesTakesAlongWhatHangsByIt) {
+  truth({0, 1, 2});
+  const Eigen::Isometry3d aside = Eigen::Isometry3d(Eigen::Translation3d(1.2 * voxel_m(), 0, 0));
+  join(0, 1);
+  join(1, 2);
+  for (const std::size_t i : {1u, 2u}) component_.T_reference_scan[i] = aside * *component_.T_reference_scan[i];
+  component_.T_reference_scan[2] = aside * *component_.T_reference_scan[2];
+  pairs_.back() = {1, 2, {{component_.T_reference_scan[1]->inverse() * *component_.T_reference_scan[2], 6}}};
+  same_m_ = 1.8 * voxel_m();
+  ASSERT_GT(error_m(2), same_m_);
+  for (const auto& record : merge()) EXPECT_TRUE(record.accepted) << record.scan << ' ' << record.reason;
+  for (const std::size_t i : {1u, 2u}) EXPECT_LE(error_m(i), tolerance_m()) << i;
+}
+
 // A chain: whatever tau says, each comes after the one it hangs by.
 TEST_F(MergingTest, ScansThatHypothesesJoinToWhatIsMergedComeFirst) {
   join(3, 4);

@@ -110,7 +110,7 @@ PairGraph HypothesisSet::graph(const std::vector<bool>& open, const InferenceOpt
   return {std::move(pairs), moments_, same_m(), options};
 }
 
-std::vector<std::pair<std::size_t, std::size_t>> HypothesisSet::without_contradicted(
+std::vector<std::pair<std::size_t, std::size_t>> HypothesisSet::without_unlikely(
     std::vector<std::pair<std::size_t, std::size_t>> pairs,
     const std::vector<Eigen::Isometry3d>& T_reference_scan) const {
   const auto stays = [&](const std::pair<std::size_t, std::size_t>& pair) {
@@ -118,7 +118,7 @@ std::vector<std::pair<std::size_t, std::size_t>> HypothesisSet::without_contradi
     if (compared == pairs_.end()) return true;
     const Eigen::Isometry3d T_a_b = T_reference_scan[pair.first].inverse() * T_reference_scan[pair.second];
     return std::any_of(compared->second.begin(), compared->second.end(), [&](const LinkHypothesis& h) {
-      return rms_displacement(T_a_b.inverse() * h.T_a_b, moments_[pair.second]) < same_m();
+      return h.log_odds > 0 && rms_displacement(T_a_b.inverse() * h.T_a_b, moments_[pair.second]) < same_m();
     });
   };
   std::vector<std::size_t> group(moments_.size());

@@ -13,12 +13,26 @@ constexpr std::size_t kMostNeighbors = 8;
 
 }  // namespace
 
-MergedScans::MergedScans(const std::vector<PreparedScan>& scans, const PairGraph& graph, const Component& component)
-    : scans_(scans), graph_(graph), component_(component), merged_(scans.size(), false), neighbors_(scans.size()) {}
+MergedScans::MergedScans(const std::vector<PreparedScan>& scans, const PairGraph& graph, const Component& inferred)
+    : scans_(scans),
+      graph_(graph),
+      inferred_(inferred),
+      component_(inferred),
+      merged_(scans.size(), false),
+      neighbors_(scans.size()) {}
 
-std::vector<std::size_t> MergedScans::add(std::size_t scan) {
-  const auto& T = component_.T_reference_scan;
+Eigen::Isometry3d MergedScans::pose(std::size_t scan) const {
+  if (merged_[scan]) return *component_.T_reference_scan[scan];
+  const Eigen::Isometry3d& T_inferred = *inferred_.T_reference_scan[scan];
+  if (!joins(scan)) return T_inferred;
+  const std::size_t neighbor = neighbors_[scan].front().scan;
+  return *component_.T_reference_scan[neighbor] * inferred_.T_reference_scan[neighbor]->inverse() * T_inferred;
+}
+
+std::vector<std::size_t> MergedScans::add(std::size_t scan, const Eigen::Isometry3d& T_reference_scan) {
+  component_.T_reference_scan[scan] = T_reference_scan;
   merged_[scan] = true;
+  const auto& T = inferred_.T_reference_scan;
   std::vector<std::size_t> out;
   for (const std::size_t k : graph_.pairs_of(scan)) {
     const ComparedPair& pair = graph_.pairs()[k];
@@ -42,7 +56,7 @@ std::vector<std::size_t> MergedScans::neighbors_of(std::size_t scan) const {
   for (const Neighbor& n : neighbors_[scan]) out.push_back(n.scan);
   if (out.empty()) {
     const auto& T = component_.T_reference_scan;
-    const Eigen::Vector3d middle = *T[scan] * scans_[scan].moments.mean;
+    const Eigen::Vector3d middle = pose(scan) * scans_[scan].moments.mean;
     std::vector<std::pair<double, std::size_t>> nearest;
     for (std::size_t i = 0; i < merged_.size(); ++i) {
       if (merged_[i]) nearest.emplace_back((*T[i] * scans_[i].moments.mean - middle).squaredNorm(), i);

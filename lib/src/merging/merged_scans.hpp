@@ -14,13 +14,16 @@ namespace tcm_icp {
 /// a merge costs the same in a set of ten as in one of a thousand.
 class MergedScans {
  public:
-  /// Keeps references: all three must outlive it. Poses of the component may change until their scan is merged.
-  MergedScans(const std::vector<PreparedScan>& scans, const PairGraph& graph, const Component& component);
+  /// Keeps references: all three must outlive it. Scans are where inference has put them until one is merged.
+  MergedScans(const std::vector<PreparedScan>& scans, const PairGraph& graph, const Component& inferred);
 
-  /// From now on at its pose in the component. Returns the members whose part of S is another one now.
-  std::vector<std::size_t> add(std::size_t scan);
+  /// From now on at this pose. Returns the members whose part of S is another one now.
+  std::vector<std::size_t> add(std::size_t scan, const Eigen::Isometry3d& T_reference_scan);
 
   bool has(std::size_t scan) const { return merged_[scan]; }
+  /// Where a merged scan is; where inference puts another beside the merged one that it overlaps most with, so that what
+  /// fits have moved so far moves it, too.
+  Eigen::Isometry3d pose(std::size_t scan) const;
   /// Whether a hypothesis that holds joins the scan to what is merged.
   bool joins(std::size_t scan) const { return !neighbors_[scan].empty(); }
 
@@ -37,7 +40,8 @@ class MergedScans {
 
   const std::vector<PreparedScan>& scans_;
   const PairGraph& graph_;
-  const Component& component_;
+  const Component& inferred_;
+  Component component_;  ///< as `inferred_`, but merged scans are where they were merged
   std::vector<bool> merged_;
   std::vector<std::vector<Neighbor>> neighbors_;  ///< merged ones of each scan, the most overlapping first
 };

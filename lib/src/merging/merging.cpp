@@ -17,9 +17,27 @@ std::vector<MergeChoice> choices_of(const MergedScans& s, const Component& compo
   std::vector<MergeChoice> joined, left;
   for (const std::size_t i : component.members()) {
     if (s.has(i)) continue;
-    (s.joins(i) ? joined : left).push_back({i, *component.T_reference_scan[i]});
+    (s.joins(i) ? joined : left).push_back({i, s.pose(i)});
   }
   return joined.empty() ? left : joined;
+}
+
+Eigen::Isometry3d place(const PreparedScan& scan, const MergedScans& s, const PairGraph& graph,
+                        const MergeOptions& options, const RunContext& context, MergeRecord& record) {
+  const Eigen::Isometry3d T_start = s.pose(record.scan);
+  if (!options.fits) {
+    record.accepted = true;
+    record.reason = "merged where inference puts it, from where the joint adjustment starts";
+    return T_start;
+  }
+  Rng rng = make_stream(context.seed, "placement", scan.key);
+  const Eigen::Isometry3d T = fit_to_cloud(scan, s.near(record.scan), T_start, options, rng, record);
+  record.accepted = record.simplex.usable() && graph.same_pose(record.scan, T_start, T);
+  record.reason = record.accepted ? "fitted to what was merged before"
+                  : record.simplex.usable()
+                      ? "merged where its links lead: the fit to what was merged before leads elsewhere"
+                      : "merged where its links lead: " + std::string(to_string(record.simplex.termination));
+  return record.accepted ? T : T_start;
 }
 
 }  // namespace
@@ -27,8 +45,9 @@ std::vector<MergeChoice> choices_of(const MergedScans& s, const Component& compo
 std::vector<MergeRecord> merge_in_tcm_order(const std::vector<PreparedScan>& scans, const PairGraph& graph,
                                             const MergeOptions& options, const RunContext& context,
                                             Component& component) {
-  MergedScans s(scans, graph, component);
-  s.add(component.reference);
+  const Component inferred = component;
+  MergedScans s(scans, graph, inferred);
+  s.add(component.reference, *component.T_reference_scan[component.reference]);
   TcmOrder order(scans, options, context);
   std::vector<std::optional<MergeMeasure>> measures(scans.size());  // of those whose part of S is as it was then
   const std::size_t count = component.size();
@@ -49,16 +68,8 @@ std::vector<MergeRecord> merge_in_tcm_order(const std::vector<PreparedScan>& sca
     MergeRecord record;
     record.scan = q;
     record.tcm = measures[q]->terms;
-    Rng rng = make_stream(context.seed, "placement", scans[q].key);
-    const Eigen::Isometry3d& T_inferred = *component.T_reference_scan[q];
-    const Eigen::Isometry3d T = fit_to_cloud(scans[q], s.near(q), T_inferred, options, rng, record);
-    record.accepted = record.simplex.usable() && graph.same_pose(q, T_inferred, T);
-    record.reason = record.accepted ? "fitted to what was merged before"
-                    : record.simplex.usable()
-                        ? "merged where its links lead: the fit to what was merged before leads elsewhere"
-                        : "merged where its links lead: " + std::string(to_string(record.simplex.termination));
-    if (record.accepted) component.T_reference_scan[q] = T;
-    for (const std::size_t i : s.add(q)) measures[i].reset();
+    component.T_reference_scan[q] = place(scans[q], s, graph, options, context, record);
+    for (const std::size_t i : s.add(q, *component.T_reference_scan[q])) measures[i].reset();
     records.push_back(std::move(record));
   }
   return records;

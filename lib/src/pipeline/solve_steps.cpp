@@ -84,8 +84,8 @@ void transfer(Record& record, T& value) {
 
 template <typename Record, MaybeConst<MergeOptions> T>
 void transfer(Record& record, T& value) {
-  auto& [order, paper_tcm, tcm, formulation, lp, refinement, paper, correspondence_threshold_m] = value;
-  record(order, paper_tcm, tcm, formulation, lp, refinement, paper, correspondence_threshold_m);
+  auto& [order, paper_tcm, fits, tcm, formulation, lp, refinement, paper, correspondence_threshold_m] = value;
+  record(order, paper_tcm, fits, tcm, formulation, lp, refinement, paper, correspondence_threshold_m);
 }
 
 template <typename Record, MaybeConst<AdjustmentRecord> T>

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "report_html_parts.hpp"
 #include "report_html_text.hpp"
 
@@ -12,8 +14,20 @@ std::string trace(const Json& merge, const char* name) {
          (t.at("kept").get<bool>() ? ", kept" : ", not kept");
 }
 
-Rows merge_rows(const Json& report, Json& sum) {
+bool is_fitted(const Json& merge) { return merge.at("simplex").at("termination") != "not run"; }
+
+Rows order_rows(const Json& report) {
   Rows rows;
+  for (const auto& m : report.at("merges")) {
+    rows.push_back(
+        {std::to_string(rows.size() + 1), scan_label(report, m.at("scan")), figure(m.at("tcm").at("tau"))});
+  }
+  return rows;
+}
+
+Rows merge_rows(const Json& report) {
+  Rows rows;
+  Json sum = Json::object();
   for (const auto& m : report.at("merges")) {
     const Json& lp = m.at("simplex").at("lp");
     const bool accepted = m.at("accepted").get<bool>();
@@ -29,36 +43,41 @@ Rows merge_rows(const Json& report, Json& sum) {
       sum[name] = sum.value(name, 0LL) + m.at("iterations").at(name).get<long long>();
     }
   }
+  rows.push_back({"", "<b>sum</b>", "", "", count(sum.at("programs")), count(sum.at("pivots")),
+                  figure(sum.at("seconds"), 1000), "", count(sum.at("descent_steps")), count(sum.at("annealing_steps")),
+                  ""});
   return rows;
 }
 
 }  // namespace
 
 std::string merges_section(const Json& report) {
-  Json sum = Json::object();
-  Rows rows = merge_rows(report, sum);
-  if (rows.empty()) return "";
+  const Json& merges = report.at("merges");
+  if (merges.empty()) return "";
   const bool paper = report.at("options").at("profile") == "paper";
-  rows.push_back({"", "<b>sum</b>", "", "", count(sum.at("programs")), count(sum.at("pivots")),
-                  figure(sum.at("seconds"), 1000), "", count(sum.at("descent_steps")), count(sum.at("annealing_steps")),
-                  ""});
-  return section(
-      "Merge order",
-      table({{"step", "number"},
-             {"scan", "name"},
-             {paper ? "TCM \u03C4<br/>[m\u2074]" : "TCM \u03C4<br/>[m\u00B2]", "number"},
-             {"result", "text"},
-             {"linear<br/>programs", "number"},
-             {"simplex<br/>pivots", "number"},
-             {"solver<br/>[ms]", "number"},
-             {"residual<br/>[mm]", "number"},
-             {"descent", "trace"},
-             {"annealing", "trace"},
-             {"reason", "wide"}},
-            rows) +
-          note("The scan with the least Transformation Compatibility Measure \u03C4 against the merged cloud is "
-               "placed next, of those that links or initial poses lead to. Descent and annealing: steps that were "
-               "accepted of those tried, and whether points that they did not see confirmed what they found."));
+  const std::string next =
+      "The scan with the least Transformation Compatibility Measure \u03C4 against the merged cloud is placed next, of "
+      "those that links or initial poses lead to.";
+  std::vector<Column> columns{{"step", "number"},
+                              {"scan", "name"},
+                              {paper ? "TCM \u03C4<br/>[m\u2074]" : "TCM \u03C4<br/>[m\u00B2]", "number"}};
+  if (std::none_of(merges.begin(), merges.end(), is_fitted)) {
+    return section("Merge order", table(columns, order_rows(report)) +
+                                      note(next + " Each is placed where all links together put it; the joint "
+                                                  "adjustment starts from there."));
+  }
+  columns.insert(columns.end(), {Column{"result", "text"},
+                                 {"linear<br/>programs", "number"},
+                                 {"simplex<br/>pivots", "number"},
+                                 {"solver<br/>[ms]", "number"},
+                                 {"residual<br/>[mm]", "number"},
+                                 {"descent", "trace"},
+                                 {"annealing", "trace"},
+                                 {"reason", "wide"}});
+  return section("Merge order",
+                 table(columns, merge_rows(report)) +
+                     note(next + " Descent and annealing: steps that were accepted of those tried, and whether points "
+                                 "that they did not see confirmed what they found."));
 }
 
 std::string adjustment_section(const Json& report) {

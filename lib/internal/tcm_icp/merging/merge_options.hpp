@@ -35,6 +35,7 @@ struct RefinementOptions {
 struct MergeOptions {
   MergeOrder order = MergeOrder::kTcm;
   bool paper_tcm = false;  ///< kTcm means the paper's equations
+  bool fits = true;        ///< false: scans stay where inference put them, from where the joint adjustment starts
   RobustTcmOptions tcm;
   LpFormulation formulation = LpFormulation::kPointToPlane;  ///< of the robust profile's linear programs
   L1FitOptions lp;
