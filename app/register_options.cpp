@@ -348,8 +348,8 @@ po::options_description configurable(RegisterOptions& o, Choices& c) {
       "lp.held-out-points", value(p.samples.held_out_points), "points kept from every fit, for verification")(
       "refinement", value(c.refinement),
       "of fits to the merged cloud: none, descent, annealing, both; auto: both in the paper's profile, none in robust, "
-      "where scans are not fitted to it but adjusted jointly")(
-      "refinement.points", value(p.refinement.points), "points the cost is taken over, and as many held out")(
+      "where scans are not fitted to it but adjusted jointly")("refinement.points", value(p.refinement.points),
+                                                               "points the cost is taken over, and as many held out")(
       "descent.steps", value(p.refinement.descent_steps), "most steps of the descent")(
       "annealing.steps", value(p.refinement.annealing_steps), "steps of the annealing after the simplex")(
       "annealing.initial-temperature", value(p.refinement.initial_temperature), "in units of the cost at the start")(

@@ -21,8 +21,8 @@ class MergedScans {
   std::vector<std::size_t> add(std::size_t scan, const Eigen::Isometry3d& T_reference_scan);
 
   bool has(std::size_t scan) const { return merged_[scan]; }
-  /// Where a merged scan is; where inference puts another beside the merged one that it overlaps most with, so that what
-  /// fits have moved so far moves it, too.
+  /// Where a merged scan is; where inference puts another beside the merged one that it overlaps most with, so that
+  /// what fits have moved so far moves it, too.
   Eigen::Isometry3d pose(std::size_t scan) const;
   /// Whether a hypothesis that holds joins the scan to what is merged.
   bool joins(std::size_t scan) const { return !neighbors_[scan].empty(); }

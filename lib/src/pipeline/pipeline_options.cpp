@@ -71,7 +71,8 @@ void PipelineOptions::validate() const {
 
 MergeOptions PipelineOptions::merging() const {
   const bool is_paper = profile == Profile::kPaper;
-    // A fit to what was merged before takes its error on, and a chain of them drifts; inferred poses are better to adjust.
+  // A fit to what was merged before takes its error on, and a chain of them drifts; inferred poses are better to
+  // adjust.
   const bool is_adjusted = adjustment.lp_steps + adjustment.steps > 0;
   const bool is_refined = refinement.method != Refinement::kAuto && refinement.method != Refinement::kNone;
   const bool fits = is_paper || is_refined || !is_adjusted;

@@ -19,8 +19,7 @@ bool is_fitted(const Json& merge) { return merge.at("simplex").at("termination")
 Rows order_rows(const Json& report) {
   Rows rows;
   for (const auto& m : report.at("merges")) {
-    rows.push_back(
-        {std::to_string(rows.size() + 1), scan_label(report, m.at("scan")), figure(m.at("tcm").at("tau"))});
+    rows.push_back({std::to_string(rows.size() + 1), scan_label(report, m.at("scan")), figure(m.at("tcm").at("tau"))});
   }
   return rows;
 }
