@@ -141,7 +141,23 @@ TEST(ReportHtml, DrawsEachGroupInItsOwnFrame) {
   }
   const std::string page = report_html(report_of(result));
   EXPECT_TRUE(has(page, "Group 0, in the frame of"));
-  EXPECT_TRUE(has(page, "Group 1, in a frame of its own"));
+  EXPECT_TRUE(has(page, "Group 1, not registered with the others, in a frame of its own"));
+  EXPECT_FALSE(has(page, "view-group")) << "there are no points to look at";
+  const Scene scene = make_scene(result, {{{1, 2, 3}}, {{4, 5, 6}}, {{7, 8, 9}}, {{1, 1, 1}}}, 1);
+  const std::string with_points = report_html(report_of(result), scene);
+  EXPECT_EQ(testing::markup_error(with_points), "");
+  EXPECT_TRUE(has(with_points, "group 1: 2 scans not registered with them"));
+}
+
+// Control points may tie scans to the rest that no link ties to it.
+TEST(ReportHtml, DrawsScansInOneFrameWhereControlPointsTieThem) {
+  PipelineResult result = three_of_four();
+  result.survey.has_frame = true;
+  result.survey.defined_by = "control points";
+  result.poses[2].component = 1;
+  const std::string page = report_html(report_of(result));
+  EXPECT_TRUE(has(page, "Group 0, in the survey frame"));
+  EXPECT_FALSE(has(page, "frame of its own,"));
 }
 
 // A control point used, a blunder, and one whose scan is nowhere, with names that are markup.

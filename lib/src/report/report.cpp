@@ -216,7 +216,7 @@ Json report_object(const PipelineResult& result, const PipelineOptions& options,
                                {"reason", l.reason},
                                {"evidence", to_json(l.evidence)},
                                {"free_space", to_json(l.free_space)}});
-    if (l.strength) report["links"].back()["strength"] = to_json(*l.strength, origin);
+    if (l.strength) report["links"].back()["strength"] = to_json(*l.strength, result.local_origin(l.a));
   }
   add_residuals(result, description.report.accept.residual_m, report);
   add_acceptance(description.report.accept, !result.survey.has_frame, report);
