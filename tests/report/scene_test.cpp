@@ -21,7 +21,7 @@ PipelineResult two_at_a_wall() {
   LinkRecord link;
   link.a = 1;
   link.b = 0;
-  link.verdict = "accepted";
+  link.verdict = Verdict::kAccepted;
   for (int i = 0; i < 40; ++i) {
     link.residuals.matches.push_back({false, 0.002F, Eigen::Vector3f(-3, 0.05F * static_cast<float>(i), 1)});
     link.residuals.matches.push_back({true, -0.002F, Eigen::Vector3f(2, 0.05F * static_cast<float>(i), 1)});
