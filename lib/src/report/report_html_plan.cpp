@@ -60,7 +60,8 @@ std::string key(const char* kind, const char* text) {
 std::string legend(const Json& report) {
   if (report.contains("conventional")) return key("plain", "pair that the poses follow");
   return key("good", "accepted link; thicker: more points agree") +
-         key("fair", "rejected link: overlap that proves nothing by itself") + key("bad", "contradicts the poses");
+         key("fair", "doubtful or rejected link: by itself it does not prove the pose") +
+         key("bad", "contradicts the poses");
 }
 
 // How many points lie above one another in each pixel, from paper to ink: walls are dark.

@@ -1,5 +1,8 @@
 // Camera, points, set-ups and links in one scene.
 
+// Set-ups and links lie within the cloud: its points do not hide them.
+const onTop = look => new THREE.MeshBasicMaterial({...look, depthTest: false, depthWrite: false});
+
 class CloudView {
   constructor(canvas, data) {
     this.data = data;
@@ -43,9 +46,11 @@ class CloudView {
       const size = this.reachOf(scan.group) / 140;
       const ball = scan.setup ? new THREE.ConeGeometry(0.8 * size, 2 * size, 12).rotateX(-Math.PI / 2)
                               : new THREE.SphereGeometry(0.7 * size, 12, 8);
-      const mark = new THREE.Mesh(ball, new THREE.MeshBasicMaterial({color: scan.colour}));
-      const rim = new THREE.Mesh(ball, new THREE.MeshBasicMaterial({color: 0x1c2733, side: THREE.BackSide}));
+      const mark = new THREE.Mesh(ball, onTop({color: scan.colour}));
+      const rim = new THREE.Mesh(ball, onTop({color: 0x1c2733, side: THREE.BackSide}));
       rim.scale.setScalar(1.3);
+      rim.renderOrder = 2;
+      mark.renderOrder = 3;
       mark.add(rim);
       mark.position.copy(placeOf(scan));
       mark.userData.scan = scan;
@@ -57,10 +62,15 @@ class CloudView {
 
   makeLines() {
     const group = new THREE.Group(), colours = {accepted: 0x1a7f37, doubtful: 0xd08700, rejected: 0xc62828};
+    const rod = new THREE.CylinderGeometry(1, 1, 1, 6, 1).rotateX(Math.PI / 2);  // lines are one pixel wide at most
     this.data.links.forEach((link, number) => {
       const ends = [placeOf(this.data.scans[link.a]), placeOf(this.data.scans[link.b])];
-      const line = new THREE.Line(new THREE.BufferGeometry().setFromPoints(ends),
-                                  new THREE.LineBasicMaterial({color: colours[link.verdict] || 0x6b7885}));
+      const line = new THREE.Mesh(rod, onTop({color: colours[link.verdict] || 0x6b7885}));
+      const width = this.reachOf(this.data.scans[link.a].group) / 900;
+      line.position.addVectors(ends[0], ends[1]).multiplyScalar(0.5);
+      line.lookAt(ends[1]);
+      line.scale.set(width, width, Math.max(ends[0].distanceTo(ends[1]), 1e-6));
+      line.renderOrder = 1;
       line.userData = {link: number, ends};
       group.add(line);
     });
