@@ -16,7 +16,7 @@ constexpr double kMmPerM = 1000, kDegPerRad = 180 / std::numbers::pi;
 
 std::string verdict_of(const ScanPose& pose) {
   if (pose.status == ScanStatus::kReference) return "reference";
-  return pose.status == ScanStatus::kUnregistered ? "unregistered" : pose.verdict;
+  return std::string(pose.status == ScanStatus::kUnregistered ? to_string(pose.status) : to_string(pose.verdict));
 }
 
 // Nothing where the pose is not one of an adjustment; the reference is where it is by definition.
@@ -117,7 +117,7 @@ void print_register_table(const PipelineResult& result, std::size_t width, std::
     const auto cells = figures(result, i);
     for (std::size_t c = 0; c < cells.size(); ++c) line += gap + right(cells[c], kColumns[c].width);
     out << without_trailing_spaces(line) << '\n';
-    if (pose.verdict != "accepted") out << wrapped(pose.reason, width, kNumberWidth + kGap);
+    if (pose.verdict != Verdict::kAccepted) out << wrapped(pose.reason, width, kNumberWidth + kGap);
   }
   for (const auto& [a, b] : result.adjustment.outlying_pairs) {
     out << wrapped(

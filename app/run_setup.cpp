@@ -1,6 +1,8 @@
 #include "run_setup.hpp"
 
 #include <algorithm>
+#include <cctype>
+#include <cstring>
 #include <ctime>
 #include <map>
 
@@ -141,9 +143,25 @@ std::string time_now() {
   return time;
 }
 
+// So that a POSIX shell takes it as one word.
+static std::string shell_word(const std::string& argument) {
+  const bool plain = !argument.empty() && std::all_of(argument.begin(), argument.end(), [](unsigned char c) {
+    return c >= 0x80 || std::isalnum(c) != 0 || std::strchr("_@%+=:,./-", c) != nullptr;
+  });
+  if (plain) return argument;
+  std::string out = "'";
+  for (const char c : argument) {
+    if (c == '\'')
+      out += "'\\''";
+    else
+      out += c;
+  }
+  return out + "'";
+}
+
 std::string command_line(std::string_view command, const Arguments& arguments) {
   std::string line = "tcm-icp " + std::string(command);
-  for (const auto& a : arguments) line += " " + a;
+  for (const auto& a : arguments) line.append(" ").append(shell_word(a));
   return line;
 }
 

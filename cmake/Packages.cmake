@@ -2,7 +2,9 @@
 # library, and no PCL, which would pull in 1 GB for the methods that are there to compare with.
 set(CPACK_PACKAGE_NAME tcm-icp)
 set(CPACK_PACKAGE_VENDOR "TCM-ICP")
-set(CPACK_PACKAGE_CONTACT "TCM-ICP maintainers <tcm-icp@example.org>")
+# dpkg wants a maintainer, an archive one who can be written to; no address is better than one that nobody reads.
+set(TCM_ICP_MAINTAINER "TCM-ICP developers" CACHE STRING "Who answers for the packages: Name <address>")
+set(CPACK_PACKAGE_CONTACT "${TCM_ICP_MAINTAINER}")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "${PROJECT_DESCRIPTION}")
 set(CPACK_RESOURCE_FILE_LICENSE ${PROJECT_SOURCE_DIR}/LICENSE)
 set(CPACK_VERBATIM_VARIABLES ON)

@@ -38,6 +38,11 @@ void bind_options(py::module_& m) {
   py::enum_<Profile>(m, "Profile", "Which method registers.")
       .value("ROBUST", Profile::kRobust, "the paper's steps made robust, with inference and decisions")
       .value("PAPER", Profile::kPaper, "the paper to the letter: needs initial poses, verifies nothing");
+  py::enum_<OutlierMethod>(m, "OutlierMethod", "What counts as an outlier of a scan.")
+      .value("KMEANS", OutlierMethod::kKMeans, "far from every k-means centroid, as in the paper")
+      .value("DISTANCE", OutlierMethod::kDistance, "far from its nearest neighbours")
+      .value("LOF", OutlierMethod::kLof, "much sparser than its neighbours' neighbourhoods")
+      .value("NONE", OutlierMethod::kNone, "no point is removed");
   py::enum_<ScanStatus>(m, "Status", "Whether a scan has a pose.")
       .value("REFERENCE", ScanStatus::kReference, "it defines the frame")
       .value("REGISTERED", ScanStatus::kRegistered, "it has a pose")
@@ -64,6 +69,7 @@ void bind_options(py::module_& m) {
       .def_readwrite("confidence", &RegistrationOptions::confidence)
       .def_readwrite("reference", &RegistrationOptions::reference)
       .def_readwrite("level", &RegistrationOptions::level)
+      .def_readwrite("outliers", &RegistrationOptions::outliers)
       .def_property(
           "coarse_voxels", [](const RegistrationOptions& o) { return o.sampling.coarse_voxels; },
           [](RegistrationOptions& o, std::size_t n) { o.sampling.coarse_voxels = n; })
@@ -71,7 +77,8 @@ void bind_options(py::module_& m) {
           "fine_voxels", [](const RegistrationOptions& o) { return o.sampling.fine_voxels; },
           [](RegistrationOptions& o, std::size_t n) { o.sampling.fine_voxels = n; })
       .def("set_initial_poses",
-           [](RegistrationOptions& o, const Matrices& matrices) { o.initial_poses = initial_poses(matrices); });
+           [](RegistrationOptions& o, const Matrices& matrices) { o.initial_poses = initial_poses(matrices); })
+      .def("set_survey", [](RegistrationOptions& o, const Survey& survey) { o.survey = survey; });
 }
 
 }  // namespace tcm_icp::python

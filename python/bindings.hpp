@@ -6,6 +6,7 @@
 namespace tcm_icp::python {
 
 void bind_options(pybind11::module_& module);  ///< enums and RegistrationOptions
+void bind_survey(pybind11::module_& module);   ///< ControlPoint, Survey
 void bind_results(pybind11::module_& module);  ///< RegisteredScan, RegisteredLink, Registration
 
 }  // namespace tcm_icp::python

@@ -113,6 +113,7 @@ PYBIND11_MODULE(_core, m) {
   using namespace tcm_icp::python;
   m.doc() = "Compiled part of tcm_icp; use the package.";
   bind_errors(m);
+  bind_survey(m);
   bind_options(m);
   bind_results(m);
   namespace py = pybind11;

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Makes the .deb packages of the program, the shared library, its headers, the Python module and the manual in
-# build/packages/packages. Builds on Debian 12; the first run installs what is missing.
+# build/packages/packages. Builds on Debian 12; the first run installs what is missing. Whoever hands the packages on sets
+# TCM_ICP_MAINTAINER="Name <address>".
 set -euo pipefail
 # shellcheck source=scripts/common.sh
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
@@ -8,7 +9,9 @@ cd "$repository"
 
 folder=build/packages
 quiet_step install scripts/install_dependencies.sh --packages || fail "dependencies cannot be installed"
-quiet_step configure cmake --preset packages || fail "configuring failed"
+maintainer=()
+[[ -z "${TCM_ICP_MAINTAINER:-}" ]] || maintainer=("-DTCM_ICP_MAINTAINER=$TCM_ICP_MAINTAINER")
+quiet_step configure cmake --preset packages "${maintainer[@]}" || fail "configuring failed"
 quiet_step build cmake --build "$folder" --parallel "$(nproc)" || fail "the build failed"
 rm -rf "$folder/packages"
 pack() { (cd "$folder" && cpack -G DEB); }

@@ -17,11 +17,11 @@ from typing import Callable, Mapping, Optional, Sequence, Union
 import numpy as np
 
 from . import _core
-from ._core import (Cancelled, Error, InputError, InvalidInput, InvalidOptions, Link, OutputError, Profile, Reason, Scan,
-                    Status, Verdict)
+from ._core import (Cancelled, ControlPoint, Error, InputError, InvalidInput, InvalidOptions, Link, OutlierMethod, OutputError,
+                    Profile, Reason, Scan, Status, Verdict)
 
-__all__ = ["Cancelled", "Error", "InputError", "InvalidInput", "InvalidOptions", "Link", "OutputError", "Profile",
-           "Reason", "Registration", "Scan", "Status", "Verdict", "find_scans", "linked_libraries", "read_points",
+__all__ = ["Cancelled", "ControlPoint", "Error", "InputError", "InvalidInput", "InvalidOptions", "Link", "OutlierMethod",
+           "OutputError", "Profile", "Reason", "Registration", "Scan", "Status", "Verdict", "find_scans", "linked_libraries", "read_points",
            "register"]
 
 __version__: str = _core.version()
@@ -88,8 +88,32 @@ class Registration:
                     self._threads, self._seed, progress)
 
 
+def _survey(scans: _core.Scans, control: Union[None, str, "os.PathLike[str]", Sequence[ControlPoint]],
+            gnss: Union[None, str, "os.PathLike[str]"], fixed: Sequence[str], crs: str,
+            level_sigma_rad: float) -> _core.Survey:
+    survey = _core.Survey()
+    if isinstance(control, (str, os.PathLike)):
+        survey.add_control_file(os.fspath(control), scans)
+    else:
+        for point in control or ():
+            survey.add_point(point)
+    if gnss is not None:
+        survey.add_scanner_positions(os.fspath(gnss), scans)
+    survey.fixed = [fixed] if isinstance(fixed, str) else list(fixed)
+    has_frame = control is not None or gnss is not None or len(survey.fixed) > 0
+    if not has_frame and (crs or level_sigma_rad):
+        raise InvalidOptions(("crs" if crs else "level_sigma_rad") +
+                             ": without control, gnss or fixed poses are in the frame of a scan")
+    survey.crs, survey.sigma_level_rad = crs, level_sigma_rad
+    return survey
+
+
 def register(scans: Union[Sequence[ScanLike], Mapping[str, ScanLike]], *, profile: Profile = Profile.ROBUST,
              confidence: float = 0.8, reference: str = "", level: bool = False,
+             outliers: OutlierMethod = OutlierMethod.KMEANS,
+             control: Union[None, str, "os.PathLike[str]", Sequence[ControlPoint]] = None,
+             gnss: Union[None, str, "os.PathLike[str]"] = None, fixed: Sequence[str] = (), crs: str = "",
+             level_sigma_rad: float = 0,
              initial_poses: Optional[Sequence[Optional[np.ndarray]]] = None, coarse_voxels: int = 30000,
              fine_voxels: int = 100000, threads: int = 0, seed: int = 42,
              progress: Optional[ProgressCallback] = None) -> Registration:
@@ -103,6 +127,14 @@ def register(scans: Union[Sequence[ScanLike], Mapping[str, ScanLike]], *, profil
         confidence: 0 to 1; least probability of its place for a scan to count as registered.
         reference: name or number of the scan whose frame the result is in; empty: chosen.
         level: z points up in every scan, within 10 degrees.
+        outliers: what is left out of each scan, and of the merged cloud.
+        control: control points and check points: a file as `--control` takes it, or ControlPoints. The poses are into
+            their frame then, as with `gnss` and `fixed`; points that contradict the others are left out.
+        gnss: a file of the scanners' positions, as `--gnss` takes it.
+        fixed: names of scans that stay where `initial_poses` has them.
+        crs: coordinate system of that frame for the files of a result: "EPSG:n", or well-known text.
+        level_sigma_rad: [rad] standard deviation of each scan's z axis from the vertical, in the adjustment to that
+            frame; 0: not known to be upright.
         initial_poses: one 4 x 4 matrix or None for each scan, into any common frame.
         coarse_voxels, fine_voxels: resolution scans are registered and adjusted with, as voxels of a typical scan.
         threads: 0: all. The number changes the time, never the result.
@@ -117,6 +149,7 @@ def register(scans: Union[Sequence[ScanLike], Mapping[str, ScanLike]], *, profil
     options = _core.Options()
     options.profile, options.confidence, options.reference = profile, confidence, str(reference)
     options.level, options.coarse_voxels, options.fine_voxels = level, coarse_voxels, fine_voxels
+    options.outliers = outliers
     if initial_poses is not None:
         options.set_initial_poses([None if pose is None else np.asarray(pose, dtype=float) for pose in initial_poses])
     core_scans = _core.Scans()
@@ -126,6 +159,7 @@ def register(scans: Union[Sequence[ScanLike], Mapping[str, ScanLike]], *, profil
             core_scans.add_file(os.fspath(scan))
         else:
             core_scans.add_array(name or f"cloud_{len(core_scans)}", scan)
+    options.set_survey(_survey(core_scans, control, gnss, fixed, crs, level_sigma_rad))
     core = _core.register(core_scans, options, threads, seed, progress)
     return Registration(core, core_scans, options, threads, seed)
 

@@ -1,6 +1,6 @@
 """Types of the compiled part."""
 
-from typing import Any, Callable, Optional, Sequence
+from typing import Any, Callable, Optional, Sequence, Union
 
 import numpy as np
 
@@ -42,6 +42,39 @@ class Reason(_Enum):
     SEEN_THROUGH: Reason
     INEXACT: Reason
     TOO_FEW_POINTS: Reason
+
+class OutlierMethod(_Enum):
+    KMEANS: OutlierMethod
+    DISTANCE: OutlierMethod
+    LOF: OutlierMethod
+    NONE: OutlierMethod
+
+class ControlPoint:
+    def __init__(self, name: str, scan: str, measured: Union[Sequence[float], np.ndarray],
+                 given: Union[Sequence[float], np.ndarray], sigma_m: Union[float, Sequence[float], np.ndarray],
+                 sigma_measured_m: Union[float, Sequence[float], np.ndarray] = ..., is_check: bool = ...) -> None: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def scan(self) -> str: ...
+    @property
+    def measured(self) -> np.ndarray: ...
+    @property
+    def given(self) -> np.ndarray: ...
+    @property
+    def sigma_m(self) -> np.ndarray: ...
+    @property
+    def sigma_measured_m(self) -> np.ndarray: ...
+    @property
+    def is_check(self) -> bool: ...
+
+class Survey:
+    fixed: list[str]
+    crs: str
+    sigma_level_rad: float
+    def add_point(self, point: ControlPoint) -> None: ...
+    def add_control_file(self, file: str, scans: Scans) -> None: ...
+    def add_scanner_positions(self, file: str, scans: Scans) -> None: ...
 
 class Scan:
     @property
@@ -109,9 +142,11 @@ class Options:
     confidence: float
     reference: str
     level: bool
+    outliers: OutlierMethod
     coarse_voxels: int
     fine_voxels: int
     def set_initial_poses(self, matrices: Sequence[Optional[np.ndarray]]) -> None: ...
+    def set_survey(self, survey: Survey) -> None: ...
 
 class Scans:
     def add_file(self, file: str) -> None: ...

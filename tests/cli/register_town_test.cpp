@@ -59,7 +59,7 @@ TEST_F(RegisterTown, WritesPosesAndTransformsByTheContract) {
     const ScanPose& scan = file.scans[i];
     EXPECT_EQ(scan.file, "00" + std::to_string(i) + ".ply");
     EXPECT_EQ(scan.status, i == 4 ? ScanStatus::kReference : ScanStatus::kRegistered);
-    EXPECT_FALSE(scan.verdict.empty());
+    EXPECT_EQ(scan.verdict, Verdict::kAccepted);
     EXPECT_FALSE(scan.reason.empty());
     EXPECT_TRUE(is_rigid(scan.T_reference_scan.matrix(), 1e-9));
     std::ifstream text(folder() / "result/transforms" / (scan.file + ".txt"));

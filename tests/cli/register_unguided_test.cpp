@@ -72,7 +72,7 @@ TEST_F(RegisterUnguided, PlacesEveryScanOfTheTown) {
   ASSERT_EQ(result.exit_code, 0) << result.err;
   expect_all_right(poses("result"));
   for (const auto& scan : poses("result").scans) {
-    EXPECT_EQ(scan.verdict, "accepted");
+    EXPECT_EQ(scan.verdict, Verdict::kAccepted);
     EXPECT_EQ(scan.component, 0);
     EXPECT_FALSE(scan.pose_in_component);
   }

@@ -54,7 +54,11 @@ TEST_F(ReportHtmlFile, HoldsScansAndLinksAgainstTheLimits) {
   EXPECT_EQ(testing::markup_error(page()), "");
   EXPECT_TRUE(page_has("<h1>A &amp; &lt;B&gt;</h1>"));
   EXPECT_TRUE(page_has("Within the limits"));
-  EXPECT_EQ(read_json(folder() / "result/report.json")["acceptance"]["passed"], true);
+  const auto passed = read_json(folder() / "result/report.json");
+  EXPECT_EQ(passed["acceptance"]["passed"], true);
+  const auto asked = passed["command_line"].get<std::string>();
+  EXPECT_NE(asked.find(" --accept-overlap 1% --project 'A & <B>'"), std::string::npos)
+      << "as a shell takes it: " << asked;
   const RunResult strict =
       run(Words{"register", "a.ply", "b.ply", "--out", "strict", "--accept-residual", "1um"} + kSmall);
   EXPECT_EQ(strict.exit_code, 0) << "limits are for the report; the scans are registered all the same";

@@ -158,6 +158,66 @@ def check_controls(page, checks):
                 "a click on a row of the table chooses its link")
 
 
+def check_groups(page, checks):
+    chosen = "document.querySelector('[name=view-group][value=\"%d\"]').click()"
+    listed = "[...document.querySelectorAll('.view-scans label')].filter(e => !e.hidden).length"
+    first = page.run(PIXELS)
+    checks.that(page.run("tcmIcpView.clouds.filter(c => c.visible).length") == 2, "the registered scans are shown alone")
+    page.run(chosen % 1)
+    other = page.run(PIXELS)
+    checks.that(other["drawn"] > 0.02 * other["all"] and other["sum"] != first["sum"],
+                "the group is shown: %(drawn)d of %(all)d pixels" % other)
+    checks.that(page.run("tcmIcpView.clouds.map(c => c.visible)") == [False, False, True, True], "its scans, and no other")
+    told = page.run("document.querySelector('.view-own').hidden ? '' : document.querySelector('.view-own').textContent")
+    checks.that("not registered" in told, "and marked: " + told)
+    checks.that(page.run(listed) == 3, "the list has its scans")
+    page.run("document.querySelectorAll('.view-scans input')[3].click()")
+    checks.that(page.run("tcmIcpView.clouds.map(c => c.visible)") == [False, False, False, True], "its scans go off")
+    checks.that(page.run(PIXELS)["drawn"] < other["drawn"], "with their points")
+    page.run("document.querySelectorAll('.view-scans input')[3].click()")
+    page.run("document.querySelector('[name=view-state][value=input]').click()")
+    checks.that(page.run(PIXELS)["drawn"] > 0.02 * other["all"], "as the files have them, too")
+    page.run("document.querySelector('[name=view-state][value=registered]').click()")
+    page.run(chosen % 0)
+    checks.that(page.run(PIXELS)["sum"] == first["sum"], "and back gives the first picture again")
+    checks.that(page.run("document.querySelector('.view-own').hidden"), "without the mark")
+    page.run("choose = n => [...document.querySelectorAll('tr[data-link]')].find(row => tcmIcpView.data.scans["
+             "tcmIcpView.data.links[Number(row.dataset.link)].a].group === n).click()")
+    page.run("choose(1)")
+    checks.that(page.run("tcmIcpView.group") == 1, "a click on a link of the group shows it")
+
+
+def check_report_of_groups(chromium, websocket, report, folder):
+    checks = Checks()
+    page = Browser(chromium, os.path.join(folder, "profile3"), websocket)
+    try:
+        page.open(report, 1400, 1000)
+        if page.run("!!document.getElementById('view-data')"):
+            wait_for("the view", lambda: page.run("!!window.tcmIcpView"))
+            check_groups(page, checks)
+        checks.that(not page.complaints, "no error on the console" + "".join("\n        " + c for c in page.complaints))
+    finally:
+        page.close()
+    return checks.failed
+
+
+# Two scans of the town and two of a street: what holds together, but not with the reference.
+def register_two_places(program, town, folder):
+    street = os.path.join(folder, "street")
+    subprocess.run([program, "simulate", "--scene", "street", "--scans", "2", "--sensor", "terrestrial", "--max-range",
+                    "40", "--seed", "5", "--out", street, "--quiet"], check=True)
+    scans = [os.path.join(town, "002.ply"), os.path.join(town, "003.ply")]
+    for number in range(2):
+        scans.append(os.path.join(folder, "street_%d.ply" % number))
+        os.rename(os.path.join(street, "00%d.ply" % number), scans[-1])
+    result = os.path.join(folder, "groups")
+    ended = subprocess.run([program, "register", *scans, "--reference", "002.ply", "--sampling.working-points", "20000",
+                            "--sampling.coarse-voxels", "4000", "--sampling.fine-voxels", "10000", "--out", result, "--quiet"])
+    if ended.returncode != 3:
+        raise RuntimeError("two places are not one: exit code %d" % ended.returncode)
+    return os.path.join(result, "report.html")
+
+
 def check_report(chromium, websocket, report, folder):
     checks = Checks()
     checks.that(os.path.getsize(report) < 10e6, "%.1f MB are below 10" % (os.path.getsize(report) / 1e6))
@@ -204,6 +264,7 @@ def main():
         subprocess.run([program, "register", *scans, "--out", result, "--quiet", "--accept-residual", "20mm", "--project",
                         "Town <1> & \"2\""], check=True)
         failed = check_report(chromium, websocket, os.path.join(result, "report.html"), folder)
+        failed += check_report_of_groups(chromium, websocket, register_two_places(program, town, folder), folder)
     print("%d checks failed" % failed)
     return 1 if failed else 0
 

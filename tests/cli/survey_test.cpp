@@ -220,7 +220,7 @@ TEST_F(RegisterSurvey, AScanThatNoLinkHoldsFollowsItsOwnTargets) {
   EXPECT_NE(result.err.find("control point L in lost.xyz was not used"), std::string::npos) << result.err;
   const PoseFile poses = read_pose_file(folder() / "out/poses.json");
   EXPECT_EQ(poses.scans[3].status, ScanStatus::kRegistered);
-  EXPECT_EQ(poses.scans[3].verdict, "accepted");
+  EXPECT_EQ(poses.scans[3].verdict, Verdict::kAccepted);
   EXPECT_NE(poses.scans[3].reason.find("control points of its own alone"), std::string::npos);
   EXPECT_LT(difference_m(poses.scans[3].T_reference_scan, T_alone, 5), 0.02);
   EXPECT_EQ(poses.scans[4].status, ScanStatus::kUnregistered);

@@ -17,9 +17,9 @@ LinkRecord decided(const LinkMeasurements& m) {
 TEST(JudgeLink, AUsualLinkIsLikelyAndATerribleOneRejected) {
   const LinkRecord usual = decided(testing::usual_link()), terrible = decided(testing::terrible_link());
   EXPECT_GT(usual.probability, 0.5);
-  EXPECT_NE(usual.verdict, "rejected");
+  EXPECT_NE(usual.verdict, Verdict::kRejected);
   EXPECT_LT(terrible.probability, 0.5);
-  EXPECT_EQ(terrible.verdict, "rejected");
+  EXPECT_EQ(terrible.verdict, Verdict::kRejected);
 }
 
 TEST(JudgeLink, TheRecordIsOfThePairAndItsMeasurements) {
@@ -38,7 +38,10 @@ TEST(JudgeLink, TheVerdictFollowsFromTheProbability) {
     const LinkRecord d = decided(m);
     ASSERT_GE(d.probability, 0);
     ASSERT_LE(d.probability, 1);
-    EXPECT_EQ(d.verdict, d.probability >= 0.95 ? "accepted" : d.probability < 0.5 ? "rejected" : "doubtful") << left;
+    EXPECT_EQ(d.verdict, d.probability >= 0.95 ? Verdict::kAccepted
+                         : d.probability < 0.5 ? Verdict::kRejected
+                                               : Verdict::kDoubtful)
+        << left;
   }
 }
 

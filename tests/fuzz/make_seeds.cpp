@@ -165,9 +165,10 @@ void write_gzip(const fs::path& folder) {
 
 void write_json(const fs::path& folder) {
   PoseFile poses{"a.ply", {}};
-  poses.scans.push_back({"a.ply", ScanStatus::kReference, Eigen::Isometry3d::Identity(), {}, 0, "accepted", "start"});
+  poses.scans.push_back(
+      {"a.ply", ScanStatus::kReference, Eigen::Isometry3d::Identity(), {}, 0, Verdict::kAccepted, "start"});
   poses.scans.push_back({"b.ply", ScanStatus::kUnregistered, Eigen::Isometry3d::Identity(),
-                         Eigen::Isometry3d::Identity(), 1, "rejected", "no overlap"});
+                         Eigen::Isometry3d::Identity(), 1, Verdict::kRejected, "no overlap"});
   fs::create_directories(folder / "poses");
   write_pose_file(folder / "poses/own", poses);
   const std::string one = "\"pose\": [[1,0,0,0.5],[0,1,0,0],[0,0,1,0],[0,0,0,1]]}";

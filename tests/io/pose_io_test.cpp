@@ -26,10 +26,11 @@ Eigen::Isometry3d motion(double scale) {
 
 PoseFile some_poses() {
   PoseFile poses{"b \"1\".ply", {}};
-  poses.scans.push_back({"a.ply", ScanStatus::kRegistered, motion(1), {}, 0, "accepted", "two links agree"});
-  poses.scans.push_back({"b \"1\".ply", ScanStatus::kReference, Eigen::Isometry3d::Identity(), {}, 0, "accepted", ""});
+  poses.scans.push_back({"a.ply", ScanStatus::kRegistered, motion(1), {}, 0, Verdict::kAccepted, "two links agree"});
+  poses.scans.push_back(
+      {"b \"1\".ply", ScanStatus::kReference, Eigen::Isometry3d::Identity(), {}, 0, Verdict::kAccepted, ""});
   poses.scans.push_back({"c\u00fc.ply", ScanStatus::kUnregistered, Eigen::Isometry3d::Identity(), motion(0.5), 1,
-                         "rejected", "back\\slash"});
+                         Verdict::kRejected, "back\\slash"});
   return poses;
 }
 
@@ -160,7 +161,7 @@ TEST(PoseIo, WhatIsWrongIsNamedWithItsPlace) {
 TEST(PoseIo, APoseFileIsReadStrictly) {
   const TempFolder folder;
   const std::string pose = "[[1,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]]";
-  const std::string rest = R"(, "component": 0, "verdict": "", "reason": ""}]})";
+  const std::string rest = R"(, "component": 0, "verdict": "accepted", "reason": ""}]})";
   const std::string start = R"({"schema": 1, "reference": "a.ply", "scans": [{"file": "a.ply", )";
   ASSERT_NO_THROW(
       read_pose_file(folder.write("a.json", start + "\"status\": \"reference\", \"pose\": " + pose + rest)));
@@ -169,6 +170,9 @@ TEST(PoseIo, APoseFileIsReadStrictly) {
       {R"({"reference": "a.ply", "scans": []})", "has no usable 'schema'"},
       {R"({"schema": 1, "scans": []})", "has no usable 'reference'"},
       {start + "\"pose\": " + pose + rest, "scans[0]: has no usable 'status'"},
+      {start + "\"status\": \"reference\", \"pose\": " + pose +
+           R"(, "component": 0, "verdict": "fine", "reason": ""}]})",
+       "scans[0]: has the unknown verdict 'fine'"},
       {start + "\"status\": \"lost\", \"pose\": " + pose + rest, "scans[0]: has the unknown status 'lost'"},
       {start + "\"status\": \"registered\", \"pose\": null" + rest, "has no pose, but is not unregistered"},
       {start + "\"status\": \"unregistered\", \"pose\": " + pose + rest, "is unregistered, but has a pose"},

@@ -175,9 +175,10 @@ TEST(ReaderFuzz, EveryTruncationOfABinaryPlyIsRefused) {
 TEST(ReaderFuzz, DamagedPoseFilesAreReadOrRefused) {
   const TempFolder folder;
   PoseFile poses{"a.ply", {}};
-  poses.scans.push_back({"a.ply", ScanStatus::kReference, Eigen::Isometry3d::Identity(), {}, 0, "accepted", "start"});
+  poses.scans.push_back(
+      {"a.ply", ScanStatus::kReference, Eigen::Isometry3d::Identity(), {}, 0, Verdict::kAccepted, "start"});
   poses.scans.push_back({"b.ply", ScanStatus::kUnregistered, Eigen::Isometry3d::Identity(),
-                         Eigen::Isometry3d::Identity(), 1, "rejected", "no overlap"});
+                         Eigen::Isometry3d::Identity(), 1, Verdict::kRejected, "no overlap"});
   const auto path = folder.path() / "poses.json";
   write_pose_file(path, poses);
   const std::string content = test::read_text(path);

@@ -124,7 +124,7 @@ TEST(Pipeline, AnInitialPoseThatTheSearchFoundIsNoOtherHypothesis) {
   std::size_t num_confirmed = 0;
   for (const auto& h : result.hypotheses) {
     EXPECT_NE(h.candidate.method, CoarseMethod::kGuess);
-    if (h.fate != "confirmed") continue;
+    if (h.status != HypothesisStatus::kConfirmed) continue;
     ++num_confirmed;
     EXPECT_LE(testing::pose_rmse_m(files.scene.T_target_source(h.a, h.b), h.T_a_b, files.scene.scans[h.b].points),
               result.coarse_voxel_m);
@@ -161,11 +161,11 @@ TEST(Pipeline, AnswersAreComplete) {
     EXPECT_TRUE(result.measurements[i]);
     if (i != 2) {
       EXPECT_EQ(result.decisions[i].reason, Reason::kAccepted);
-      EXPECT_EQ(result.poses[i].verdict, "accepted");
+      EXPECT_EQ(result.poses[i].verdict, Verdict::kAccepted);
       EXPECT_GT(result.evidence[i]->consensus(), 0.2);
     }
   }
-  for (const auto& link : result.links) EXPECT_FALSE(link.verdict.empty() || link.reason.empty());
+  for (const auto& link : result.links) EXPECT_FALSE(link.reason.empty());
 }
 
 TEST(Pipeline, TwoThreadsGiveTheSameBitsAsOne) {
@@ -247,7 +247,7 @@ TEST(Pipeline, AScanThatSharesNothingIsUnregisteredAndTheReasonIsSaid) {
   const PipelineResult result = run(files, with_reference("0.ply"));
   EXPECT_EQ(result.poses[1].status, ScanStatus::kUnregistered) << reasons(result);
   EXPECT_NE(result.poses[1].component, result.poses[0].component);
-  EXPECT_EQ(result.poses[1].verdict, "rejected");
+  EXPECT_EQ(result.poses[1].verdict, Verdict::kRejected);
   EXPECT_FALSE(result.poses[1].reason.empty());
   EXPECT_FALSE(result.decisions[1].accepted());
   EXPECT_NE(result.decisions[1].reason, Reason::kNotDecided);

@@ -88,16 +88,16 @@ TEST(PoseGraphEdges, AreTheAcceptedLinksBetweenRegisteredScans) {
   result.scans[0].origin << 100, 0, 0;
   result.poses[0].status = ScanStatus::kReference;
   result.poses[1].status = result.poses[2].status = ScanStatus::kRegistered;
-  const auto add = [&](std::size_t a, std::size_t b, const char* verdict) {
+  const auto add = [&](std::size_t a, std::size_t b, Verdict verdict) {
     result.links.push_back({});
     result.links.back().a = a;
     result.links.back().b = b;
     result.links.back().verdict = verdict;
   };
-  add(0, 1, "accepted");
-  add(1, 2, "accepted");
-  add(0, 2, "doubtful");
-  add(2, 3, "accepted");  // 3 is unregistered
+  add(0, 1, Verdict::kAccepted);
+  add(1, 2, Verdict::kAccepted);
+  add(0, 2, Verdict::kDoubtful);
+  add(2, 3, Verdict::kAccepted);  // 3 is unregistered
   result.links[0].strength = some_strength();
   result.poses[1].T_reference_scan = some_pose();
   const auto edges = pose_graph_edges(result);

@@ -92,7 +92,7 @@ TEST(RegisterScans, SaysWhatThePipelineSays) {
   for (std::size_t i = 0; i < 3; ++i) {
     const RegisteredScan& scan = registration.scans[i];
     EXPECT_TRUE(scan.T_reference_scan.matrix() == result.poses[i].T_reference_scan.matrix());
-    EXPECT_EQ(to_string(scan.verdict), result.poses[i].verdict);
+    EXPECT_EQ(scan.verdict, result.poses[i].verdict);
     EXPECT_EQ(scan.text, result.poses[i].reason);
     EXPECT_EQ(scan.num_points, kRubble.points_per_scan);
     const bool is_reference = i == registration.reference;

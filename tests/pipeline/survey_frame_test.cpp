@@ -77,7 +77,7 @@ TEST(SurveyFrame, ControlOfItsOwnBringsAComponentIntoTheFrame) {
   }
   for (const std::size_t i : {2U, 3U}) {
     EXPECT_EQ(result.poses[i].component, 1);
-    EXPECT_EQ(result.poses[i].verdict, "accepted");
+    EXPECT_EQ(result.poses[i].verdict, Verdict::kAccepted);
     EXPECT_NE(result.poses[i].reason.find("of its own alone"), std::string::npos);
   }
   for (const auto& point : result.survey.points) EXPECT_EQ(point.status, PointStatus::kUsed) << point.point.name;

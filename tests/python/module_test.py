@@ -126,6 +126,61 @@ class Calls(unittest.TestCase):
         with self.assertRaisesRegex(tcm_icp.InvalidOptions, "1 initial poses for 3"):
             tcm_icp.register(self.clouds, initial_poses=[None])
 
+    def test_outliers_are_left_out_as_asked(self):
+        counts = {}
+        with tempfile.TemporaryDirectory() as folder:
+            for method in (tcm_icp.OutlierMethod.NONE, tcm_icp.OutlierMethod.DISTANCE):
+                out = Path(folder) / method.name
+                tcm_icp.register(self.clouds, outliers=method).write(out)
+                report = json.loads((out / "report.json").read_text())
+                counts[method.name] = sum(s["outliers"]["working_points_removed"] for s in report["scans"])
+                self.assertEqual(report["options"]["outliers"], method.name.lower())
+        self.assertEqual(counts["NONE"], 0)
+        self.assertGreater(counts["DISTANCE"], 0)
+
+    def test_control_points_define_the_frame(self):
+        survey = np.eye(4)  # 500 km away, turned by 30 degrees
+        survey[:2, :2] = [[np.cos(0.5), -np.sin(0.5)], [np.sin(0.5), np.cos(0.5)]]
+        survey[:3, 3] = 512345, 5412301, 287
+        places = np.array([[3, 4, 1], [-8, 2, 2], [10, -6, 3], [0, 12, 1.5], [20, 3, 4]])
+        points, lines = [], ["name,scan,x,y,z,X,Y,Z,sigma,sigma_scan,use"]
+        for k, place in enumerate(places):
+            scan = k % 3
+            at = np.linalg.inv(TRUTH[FILES[scan].name]) @ [*place, 1]
+            given = survey @ [*place, 1]
+            points.append(tcm_icp.ControlPoint(f"T{k}", f"cloud_{scan}", at[:3], given[:3], 0.001, [0.001] * 3, is_check=k == 4))
+            row = [repr(float(x)) for x in (*at[:3], *given[:3])] + ["0.001", "0.001", "check" if k == 4 else "control"]
+            lines.append(",".join([f"T{k}", FILES[scan].name, *row]))
+        result = tcm_icp.register(self.clouds, control=points, crs="EPSG:32632")
+        for scan, file in zip(result.scans, FILES):
+            wrong = scan.pose - survey @ TRUTH[file.name]
+            self.assertLess(np.abs(self.clouds[0] @ wrong[:3, :3].T + wrong[:3, 3]).max(), 0.05)
+        self.assertTrue(points[4].is_check and not points[0].is_check)
+        np.testing.assert_array_equal(points[0].sigma_measured_m, [0.001] * 3)
+        with tempfile.TemporaryDirectory() as folder:
+            file = Path(folder) / "control.csv"
+            file.write_text("\n".join(lines) + "\n")
+            again = tcm_icp.register(FILES[:3], control=file)
+            np.testing.assert_allclose(again.poses[1], result.poses[1], rtol=0, atol=1e-6)
+            result.write(Path(folder) / "out")
+            poses = json.loads((Path(folder) / "out" / "poses.json").read_text())
+            self.assertEqual((poses["frame"], poses["crs"]), ("control points", "EPSG:32632"))
+            file.write_text(lines[0] + "\nT,nowhere.ply,1,2,3,4,5,6,0.01,0.01,control\n")
+            with self.assertRaisesRegex(tcm_icp.InputError, "nowhere.ply"):
+                tcm_icp.register(FILES[:3], control=file)
+
+    def test_misuse_of_a_survey_is_told(self):
+        with self.assertRaisesRegex(tcm_icp.InvalidInput, "T1: sigma_m must be above 0"):
+            tcm_icp.ControlPoint("T1", "cloud_0", [1, 2, 3], [4, 5, 6], 0)
+        with self.assertRaisesRegex(tcm_icp.InvalidInput, "not a finite number"):
+            tcm_icp.ControlPoint("T1", "cloud_0", [1, 2, np.nan], [4, 5, 6], 0.01)
+        with self.assertRaisesRegex(tcm_icp.InvalidOptions, "crs: without control"):
+            tcm_icp.register(self.clouds, crs="EPSG:32632")
+        with self.assertRaisesRegex(tcm_icp.InvalidOptions, "cloud_9"):
+            tcm_icp.register(self.clouds, control=[tcm_icp.ControlPoint("T1", "cloud_9", [1, 2, 3], [4, 5, 6], 0.01)])
+        with self.assertRaisesRegex(tcm_icp.InvalidOptions, "cloud_1"):
+            tcm_icp.register(self.clouds, fixed=["cloud_1"])  # without initial poses
+
     def test_misuse_raises_what_it_is(self):
         with self.assertRaisesRegex(tcm_icp.InputError, "missing.ply"):
             tcm_icp.register(["missing.ply", FILES[0]])
@@ -196,7 +251,7 @@ class Documentation(unittest.TestCase):
             members |= {n.target.id for n in stubs[name].body if isinstance(n, ast.AnnAssign)}
             inherited = {"name", "value"} if hasattr(getattr(_core, name), "__members__") else set()
             there = {m for m in vars(getattr(_core, name)) if not m.startswith("_")}
-            self.assertEqual(members - {"__len__"}, there - inherited, name)
+            self.assertEqual(members - {"__init__", "__len__"}, there - inherited, name)
 
     def test_every_public_name_has_a_docstring(self):
         for name in tcm_icp.__all__:

@@ -27,8 +27,8 @@ PipelineResult three_of_four() {
     scan.num_points = 1234567;
     scan.extent_m = 20;
     result.scans.push_back(scan);
-    ScanPose pose{kNames[i],  ScanStatus::kRegistered, Eigen::Isometry3d::Identity(), {}, 0,
-                  "accepted", "agrees at 70 %"};
+    ScanPose pose{kNames[i],          ScanStatus::kRegistered, Eigen::Isometry3d::Identity(), {}, 0,
+                  Verdict::kAccepted, "agrees at 70 %"};
     pose.T_reference_scan.translation().x() = 10.0 * static_cast<double>(i);
     result.poses.push_back(pose);
     result.evidence.emplace_back(AlignmentEvidence{});
@@ -36,19 +36,19 @@ PipelineResult three_of_four() {
   }
   result.poses[0].status = ScanStatus::kReference;
   result.evidence[0].reset();
-  result.poses[3] = {kNames[3],  ScanStatus::kUnregistered, Eigen::Isometry3d::Identity(), {}, 1, "rejected",
+  result.poses[3] = {kNames[3],  ScanStatus::kUnregistered, Eigen::Isometry3d::Identity(), {}, 1, Verdict::kRejected,
                      "of <Mars>"};
   result.uncertainty.poses[1].determined = true;
   result.uncertainty.poses[1].covariance = 1e-6 * Eigen::Matrix<double, 6, 6>::Identity();
   result.graph.measure = Eigen::MatrixXd::Zero(4, 4);
   result.graph.adjacency.resize(4);
-  result.links.push_back({0, 1, {}, {}, 0.97, "accepted", "agrees", LinkStrength{}});
-  result.links.push_back({1, 2, {}, {}, 0.02, "rejected", "only 1 % agree", {}});
+  result.links.push_back({0, 1, {}, {}, 0.97, Verdict::kAccepted, "agrees", LinkStrength{}});
+  result.links.push_back({1, 2, {}, {}, 0.02, Verdict::kRejected, "only 1 % agree", {}});
   LinkHypothesisRecord contradicted;
   contradicted.a = 0;
   contradicted.b = 2;
   contradicted.log_odds = 2;
-  contradicted.fate = "contradicted";
+  contradicted.status = HypothesisStatus::kContradicted;
   result.hypotheses.push_back(contradicted);
   MergeRecord merge;
   merge.scan = 1;
@@ -101,6 +101,13 @@ TEST(ReportHtml, NamesWhatIsNotRegisteredAndWhy) {
   const std::string page = report_html(report_of(result));
   EXPECT_TRUE(has(page, "3 of 4 scans are registered."));
   EXPECT_TRUE(has(page, kEscaped[3] + "</bdi>: of &lt;Mars&gt;"));
+  PipelineResult alone = result;
+  for (const std::size_t i : {0UL, 1UL, 2UL, 3UL}) {
+    if (i == alone.reference) continue;
+    alone.poses[i].status = ScanStatus::kUnregistered;
+    alone.poses[i].component = static_cast<int>(i) + 1;
+  }
+  EXPECT_TRUE(has(report_html(report_of(alone)), "No scan is registered with another"));
   PipelineResult complete = result;
   complete.poses[3] = complete.poses[2];
   complete.poses[3].file = kNames[3];
@@ -141,7 +148,24 @@ TEST(ReportHtml, DrawsEachGroupInItsOwnFrame) {
   }
   const std::string page = report_html(report_of(result));
   EXPECT_TRUE(has(page, "Group 0, in the frame of"));
-  EXPECT_TRUE(has(page, "Group 1, in a frame of its own"));
+  EXPECT_TRUE(has(page, "Group 1, not registered with the others, in a frame of its own"));
+  EXPECT_FALSE(has(page, "view-group")) << "there are no points to look at";
+  const Scene scene = make_scene(result, {{{1, 2, 3}}, {{4, 5, 6}}, {{7, 8, 9}}, {{1, 1, 1}}}, 1);
+  const std::string with_points = report_html(report_of(result), scene);
+  EXPECT_EQ(testing::markup_error(with_points), "");
+  EXPECT_TRUE(has(with_points, "group 1: 2 scans not registered with them"));
+  EXPECT_TRUE(has(with_points, "hold together (group 1), but are not registered with the others"));
+}
+
+// Control points may tie scans to the rest that no link ties to it.
+TEST(ReportHtml, DrawsScansInOneFrameWhereControlPointsTieThem) {
+  PipelineResult result = three_of_four();
+  result.survey.has_frame = true;
+  result.survey.defined_by = "control points";
+  result.poses[2].component = 1;
+  const std::string page = report_html(report_of(result));
+  EXPECT_TRUE(has(page, "Group 0, in the survey frame"));
+  EXPECT_FALSE(has(page, "frame of its own,"));
 }
 
 // A control point used, a blunder, and one whose scan is nowhere, with names that are markup.

@@ -17,6 +17,11 @@ TEST(HtmlText, EscapesMarkupAndWhatIsNoCharacter) {
   EXPECT_EQ(html::escaped("\uFFFF"), "\uFFFD") << "not allowed in XML";
 }
 
+TEST(HtmlText, LongNamesBreakAfterFolders) {
+  EXPECT_EQ(html::file_name("a.ply"), "<bdi class=\"file\">a.ply</bdi>");
+  EXPECT_EQ(html::file_name("yard/one//a<.ply"), "<bdi class=\"file\">yard/<wbr/>one/<wbr/>/<wbr/>a&lt;.ply</bdi>");
+}
+
 TEST(HtmlText, GivesThreeDigits) {
   EXPECT_EQ(html::figure(12345.6), "12346");
   EXPECT_EQ(html::figure(12.345), "12.3");

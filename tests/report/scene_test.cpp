@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "report/cloud_picture.hpp"
 #include "report/section_cut.hpp"
 
 namespace tcm_icp {
@@ -20,7 +21,7 @@ PipelineResult two_at_a_wall() {
   LinkRecord link;
   link.a = 1;
   link.b = 0;
-  link.verdict = "accepted";
+  link.verdict = Verdict::kAccepted;
   for (int i = 0; i < 40; ++i) {
     link.residuals.matches.push_back({false, 0.002F, Eigen::Vector3f(-3, 0.05F * static_cast<float>(i), 1)});
     link.residuals.matches.push_back({true, -0.002F, Eigen::Vector3f(2, 0.05F * static_cast<float>(i), 1)});
@@ -37,7 +38,7 @@ TEST(Scene, PutsPointsOfBothScansIntoOneFrame) {
                         of_1 = scene.scans[1].T_view_scan * scene.scans[1].points[0].cast<double>();
   EXPECT_NEAR((of_0 - of_1).norm(), 0, 1e-9);
   EXPECT_LT(of_0.norm(), 5) << "near the origin of the view, which graphics cards need";
-  EXPECT_NEAR((of_0 + scene.origin - Eigen::Vector3d(1002, 1, 1)).norm(), 0, 1e-9);
+  EXPECT_NEAR((of_0 + scene.registered().origin - Eigen::Vector3d(1002, 1, 1)).norm(), 0, 1e-9);
 }
 
 TEST(Scene, TellsDistancesWhereAnotherScanIsNear) {
@@ -46,6 +47,33 @@ TEST(Scene, TellsDistancesWhereAnotherScanIsNear) {
   EXPECT_EQ(scene.scans[0].distances[0], 25) << "254 times the root of 2 mm by 200 mm";
   EXPECT_EQ(scene.scans[0].distances[1], Scene::kNoSurface);
   EXPECT_EQ(scene.scans[1].distances[0], 25);
+}
+
+// Two scans hold together, but not with the first, and one is left over.
+TEST(Scene, KeepsGroupsThatAreNotRegisteredApart) {
+  PipelineResult result = two_at_a_wall();
+  result.scans.resize(4);
+  result.poses.resize(4);
+  result.poses[1] = {};
+  const Eigen::Vector3d far(500'000, 5'000'000, 0);
+  for (const std::size_t i : {2U, 3U}) {
+    result.scans[i].origin = far;
+    result.poses[i].component = 2;
+    result.poses[i].pose_in_component = Eigen::Isometry3d::Identity();
+  }
+  result.poses[2].pose_in_component->translation().x() = 3;
+  result.poses[1].component = 1;
+  const Scene scene = make_scene(result, {{{2, 1, 1}}, {}, {{0, 0, 0}}, {{1, 2, 3}}}, 1);
+  ASSERT_EQ(scene.groups.size(), 2U) << "a scan by itself is no group";
+  EXPECT_EQ(scene.groups[1].component, 2);
+  EXPECT_EQ(scene.scans[0].group, 0U);
+  EXPECT_EQ(scene.scans[2].group, 1U);
+  EXPECT_EQ(scene.scans[3].group, 1U);
+  EXPECT_EQ(scene.groups[1].origin, far) << "that of the scan whose frame it is";
+  EXPECT_NEAR((scene.scans[2].T_view_scan * Eigen::Vector3d::Zero() - Eigen::Vector3d(3, 0, 0)).norm(), 0, 1e-6);
+  EXPECT_NEAR((scene.groups[1].box.max() - Eigen::Vector3d(3, 2, 3)).norm(), 0, 1e-6);
+  EXPECT_NEAR(scene.registered().box.max().x(), 2, 1e-9) << "the other group does not make it larger";
+  EXPECT_EQ(picture_points(scene).size(), 1U);
 }
 
 TEST(Scene, IsThereWithoutPointsAndResolutions) {

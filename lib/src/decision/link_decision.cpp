@@ -15,9 +15,9 @@ LinkRecord judge_link(std::size_t a, std::size_t b, const LinkMeasurements& m, c
   out.evidence = m.evidence;
   out.free_space = m.free_space;
   out.probability = 1 / (1 + std::exp(-set.constant - pose_log_odds(link_features(m, std::nullopt, set))));
-  out.verdict = out.probability >= kLinkAccepted  ? "accepted"
-                : out.probability < kLinkRejected ? "rejected"
-                                                  : "doubtful";
+  out.verdict = out.probability >= kLinkAccepted  ? Verdict::kAccepted
+                : out.probability < kLinkRejected ? Verdict::kRejected
+                                                  : Verdict::kDoubtful;
   out.reason = percent(m.evidence.overlap) + " overlap, " + percent(m.evidence.inlier_share) +
                " of that agrees within the noise; moved by " + figure(m.evidence.slide_m, 2) +
                " m in its weakest direction, " + percent(m.evidence.left_after_slide[0]) +

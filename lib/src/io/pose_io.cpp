@@ -48,7 +48,8 @@ std::string json_scan(const ScanPose& scan) {
   if (scan.pose_in_component) {
     text += "   \"pose_in_component\": " + json_matrix(*scan.pose_in_component, scan.file) + ",\n";
   }
-  return text + "   \"component\": " + std::to_string(scan.component) + ", \"verdict\": " + json_string(scan.verdict) +
+  return text + "   \"component\": " + std::to_string(scan.component) +
+         ", \"verdict\": " + json_string(std::string(to_string(scan.verdict))) +
          ", \"reason\": " + json_string(scan.reason) +
          (scan.unit == "m" ? "" : ", \"unit\": " + json_string(scan.unit)) + "}";
 }
@@ -86,7 +87,13 @@ ScanPose read_scan(const nlohmann::json& entry, const std::filesystem::path& pat
   if (pose) scan.T_reference_scan = *pose;
   scan.pose_in_component = pose_of(entry, "pose_in_component", path, place);
   scan.component = field_of<int>(entry, "component", path, place);
-  scan.verdict = field_of<std::string>(entry, "verdict", path, place);
+  const auto verdict_name = field_of<std::string>(entry, "verdict", path, place);
+  const auto verdict = verdict_from_name(verdict_name);
+  if (!verdict) {
+    throw InputError(path, place, "has the unknown verdict '" + verdict_name + "'",
+                     "accepted, doubtful and rejected are known");
+  }
+  scan.verdict = *verdict;
   scan.reason = field_of<std::string>(entry, "reason", path, place);
   if (entry.contains("unit")) scan.unit = field_of<std::string>(entry, "unit", path, place);
   return scan;

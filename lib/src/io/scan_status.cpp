@@ -9,4 +9,11 @@ std::optional<ScanStatus> status_from_name(std::string_view name) {
   return std::nullopt;
 }
 
+std::optional<Verdict> verdict_from_name(std::string_view name) {
+  for (const Verdict verdict : {Verdict::kAccepted, Verdict::kDoubtful, Verdict::kRejected}) {
+    if (name == to_string(verdict)) return verdict;
+  }
+  return std::nullopt;
+}
+
 }  // namespace tcm_icp

@@ -1,5 +1,5 @@
 #pragma once
-// The status of a scan by what files call it.
+// Status and verdict of a scan by what files call them.
 
 #include <optional>
 #include <string_view>
@@ -8,7 +8,8 @@
 
 namespace tcm_icp {
 
-/// Of to_string()'s names; nothing where no status is called that.
+/// Of to_string()'s names; nothing where nothing is called that.
 std::optional<ScanStatus> status_from_name(std::string_view name);
+std::optional<Verdict> verdict_from_name(std::string_view name);
 
 }  // namespace tcm_icp

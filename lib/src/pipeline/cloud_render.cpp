@@ -62,12 +62,12 @@ class CloudSampler {
     // All of a cloud's scans share one frame, so points are evened over cells of one size.
     ScenePoints points = sampler.take(std::vector<double>(num_points.size(), cell_m(sampler)), context_.num_threads);
     Scene scene;
-    scene.origin = origin_;
+    scene.groups.front().origin = origin_;
     for (auto& of_scan : points) {
       scene.scans.emplace_back();
       scene.scans.back().points = std::move(of_scan);
     }
-    scene.box = box_without_stray_points(scene);
+    scene.groups.front().box = box_without_stray_points(scene);
     return scene;
   }
 
@@ -130,7 +130,7 @@ void render_cloud(const fs::path& cloud, const fs::path& picture, const RenderOp
   const Scene scene = CloudSampler(cloud, context).sample(options.max_points);
   if (scene.num_points() == 0) throw InputError(cloud, "", "there are no points to draw", "name another cloud");
   std::ofstream out(picture, std::ios::binary);
-  out << png(draw(picture_points(scene), scene.box, options));
+  out << png(draw(picture_points(scene), scene.registered().box, options));
   out.close();
   if (!out) throw OutputError(picture, "cannot be written", "check that its folder is there, and the disk not full");
 }

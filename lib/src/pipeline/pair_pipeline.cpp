@@ -62,12 +62,12 @@ ScanPose scan_pose(const std::vector<SampledScan>& scans, std::size_t i, std::si
   pose.file = scans[i].scan.file;
   if (i == reference) {
     pose.status = ScanStatus::kReference;
-    pose.verdict = "accepted";
+    pose.verdict = Verdict::kAccepted;
     pose.reason = "the reference";
     return pose;
   }
   pose.status = ScanStatus::kRegistered;
-  pose.verdict = "doubtful";
+  pose.verdict = Verdict::kDoubtful;
   pose.reason = "merged by " + method +
                 (converged ? ", which does not verify" : ", which did not converge on the way to the reference");
   // Every pair was fitted, so the tree reaches every scan. Raw coordinates: both local origins are put back.

@@ -21,15 +21,15 @@ ScanPose pose_of(std::size_t scan, std::size_t reference, const PipelineInput& i
   pose.file = in.files[scan];
   if (scan == reference) {
     pose.status = ScanStatus::kReference;
-    pose.verdict = "accepted";
+    pose.verdict = Verdict::kAccepted;
     pose.reason = "the reference";
   } else if (record != nullptr && record->accepted) {
     pose.status = ScanStatus::kRegistered;
-    pose.verdict = "doubtful";  // this profile does not verify
+    pose.verdict = Verdict::kDoubtful;  // this profile does not verify
     pose.reason = record->reason;
     pose.T_reference_scan = for_raw_coordinates(T, in.sampled[reference].scan, in.sampled[scan].scan);
   } else {
-    pose.verdict = "rejected";
+    pose.verdict = Verdict::kRejected;
     pose.reason = record != nullptr ? record->reason : "too few points to compare";
   }
   return pose;

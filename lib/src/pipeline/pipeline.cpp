@@ -16,6 +16,16 @@ bool PipelineResult::all_registered() const {
                       [](const ScanPose& p) { return p.status == ScanStatus::kUnregistered; });
 }
 
+Eigen::Vector3d PipelineResult::local_origin(std::size_t scan) const {
+  if (!has_frame_of_its_own(scan)) return local_origin();
+  const auto is_its_reference = [&](const ScanPose& p) {
+    return p.component == poses[scan].component && p.pose_in_component &&
+           p.pose_in_component->matrix() == Eigen::Matrix4d::Identity();
+  };
+  const auto at = std::find_if(poses.begin(), poses.end(), is_its_reference);
+  return at == poses.end() ? local_origin() : scans[static_cast<std::size_t>(at - poses.begin())].origin;
+}
+
 Pipeline::Pipeline(PipelineOptions options, std::shared_ptr<const StepStore> steps)
     : options_(std::move(options)), steps_(std::move(steps)) {
   options_.validate();

@@ -38,7 +38,7 @@ std::vector<PoseGraphEdge> pose_graph_edges(const PipelineResult& result) {
   const auto is_registered = [&](std::size_t i) { return result.poses[i].status != ScanStatus::kUnregistered; };
   std::vector<PoseGraphEdge> edges;
   for (const LinkRecord& link : result.links) {
-    if (link.verdict != "accepted" || !is_registered(link.a) || !is_registered(link.b)) continue;
+    if (link.verdict != Verdict::kAccepted || !is_registered(link.a) || !is_registered(link.b)) continue;
     PoseGraphEdge edge{link.a, link.b};
     if (link.strength) {
       Eigen::Isometry3d T_local_to = result.poses[link.b].T_reference_scan;

@@ -16,13 +16,9 @@ PipelineOptions pipeline_options(const RegistrationOptions& o) {
   out.reference = o.reference;
   out.level = o.level;
   out.sampling = o.sampling;
+  out.outliers.method = o.outliers;
   out.decision.confidence = o.confidence;
   return out;
-}
-
-Verdict verdict_of(const std::string& name) {
-  if (name == to_string(Verdict::kAccepted)) return Verdict::kAccepted;
-  return name == to_string(Verdict::kDoubtful) ? Verdict::kDoubtful : Verdict::kRejected;
 }
 
 RegisteredScan registered_scan(const PipelineResult& result, std::size_t i) {
@@ -30,7 +26,7 @@ RegisteredScan registered_scan(const PipelineResult& result, std::size_t i) {
   RegisteredScan out;
   out.name = pose.file;
   out.status = pose.status;
-  out.verdict = verdict_of(pose.verdict);
+  out.verdict = pose.verdict;
   out.text = pose.reason;
   if (out.is_registered()) out.T_reference_scan = pose.T_reference_scan;
   out.T_component_scan = pose.pose_in_component;
@@ -62,7 +58,7 @@ RegisteredScan registered_scan(const PipelineResult& result, std::size_t i) {
 RegisteredLink registered_link(const LinkRecord& link) {
   return {link.a,
           link.b,
-          verdict_of(link.verdict),
+          link.verdict,
           link.probability,
           link.evidence.overlap,
           link.evidence.inlier_share,

@@ -31,6 +31,28 @@ void select(const PointBlock& block, std::size_t stride, const std::vector<char>
   }
 }
 
+using Use = std::function<void(const PointBlock&)>;
+
+/// The raw points of a scan, without its outliers.
+void stream_kept(std::span<const ScanInput> inputs, std::size_t i, const PipelineResult& result,
+                 ReadAttributes read_attributes, const RunContext& context, const Use& use) {
+  const ScanSummary& scan = result.scans[i];
+  ScanReader reader(inputs[i], read_attributes);
+  PointBlock block, kept;
+  std::vector<char> keep;
+  while (reader.read(block)) {
+    context.report("writing", i, inputs.size());
+    keep.resize(block.size());
+    parallel_for(context.num_threads, block.size(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t k = begin; k < end; ++k) {
+        keep[k] = scan.outliers.is_outlier(block.points[k] - scan.origin) ? 0 : 1;
+      }
+    });
+    select(block, reader.attribute_stride(), keep, kept);
+    if (kept.size() > 0) use(kept);
+  }
+}
+
 class CloudOutput {
  public:
   CloudOutput(const fs::path& folder, std::span<const ScanInput> inputs, const PipelineResult& result,
@@ -97,8 +119,6 @@ class CloudOutput {
   }
 
  private:
-  using Use = std::function<void(const PointBlock&)>;
-
   bool wants_text() const { return options_.format == CloudFormat::kLas || options_.format == CloudFormat::kE57; }
 
   bool is_written(std::size_t i) const { return !only_ || *only_ == i; }
@@ -125,23 +145,8 @@ class CloudOutput {
     }
   }
 
-  /// The raw points of a registered scan, without its outliers.
   void stream(std::size_t i, ReadAttributes read_attributes, const Use& use) const {
-    const ScanSummary& scan = result_.scans[i];
-    ScanReader reader(inputs_[i], read_attributes);
-    PointBlock block, kept;
-    std::vector<char> keep;
-    while (reader.read(block)) {
-      context_.report("writing", i, inputs_.size());
-      keep.resize(block.size());
-      parallel_for(context_.num_threads, block.size(), [&](std::size_t begin, std::size_t end) {
-        for (std::size_t k = begin; k < end; ++k) {
-          keep[k] = scan.outliers.is_outlier(block.points[k] - scan.origin) ? 0 : 1;
-        }
-      });
-      select(block, reader.attribute_stride(), keep, kept);
-      if (kept.size() > 0) use(kept);
-    }
+    stream_kept(inputs_, i, result_, read_attributes, context_, use);
   }
 
   /// Whether intensities have to be scaled to fit the field that LAS has for them.
@@ -291,6 +296,12 @@ void write_registered_clouds(const fs::path& folder, std::span<const ScanInput> 
                              const OutputOptions& options, const RunContext& context, std::uint64_t most_voxels,
                              const PointWatcher& watcher) {
   CloudOutput(folder, inputs, result, options, context, watcher).write(most_voxels);
+}
+
+void watch_scan(std::span<const ScanInput> inputs, std::size_t scan, const PipelineResult& result,
+                const RunContext& context, const PointWatcher& watcher) {
+  stream_kept(inputs, scan, result, ReadAttributes::kNo, context,
+              [&](const PointBlock& block) { watcher(scan, block.points); });
 }
 
 fs::path write_registered_scan(const fs::path& folder, const ScanInput& input, std::size_t scan,

@@ -27,6 +27,11 @@ void write_registered_clouds(const std::filesystem::path& folder, std::span<cons
                              const PipelineResult& result, const OutputOptions& options, const RunContext& context,
                              std::uint64_t most_voxels = kMostVoxels, const PointWatcher& watcher = {});
 
+/// The raw points of one scan for whoever watches, outliers left out, with nothing written: of scans that are not
+/// registered. @throws InputError, Cancelled
+void watch_scan(std::span<const ScanInput> inputs, std::size_t scan, const PipelineResult& result,
+                const RunContext& context, const PointWatcher& watcher);
+
 /// Writes scans/NAME.EXT of one registered scan into `folder`, bit by bit as the function above does where `each` is
 /// set (but for LAS, whose intensities are scaled by the scan's own range, and E57, which names no coordinate system
 /// where the options do not). @return the file, beneath `folder`

@@ -37,6 +37,11 @@ void add_options(const OutputOptions& clouds, Json& to) {
   to["colour"] = clouds.colour == CloudColour::kKeep ? "keep" : "scan";
 }
 
+// Registered, or in a group that holds together by itself.
+bool is_drawn(const PipelineResult& result, std::size_t scan) {
+  return result.poses[scan].status != ScanStatus::kUnregistered || result.has_frame_of_its_own(scan);
+}
+
 // Of the file each scan comes from; several scans may be in one. Empty for scans that are in no file.
 std::vector<std::string> check_sums(std::span<const ScanInput> inputs, const StepStore* steps, int num_threads) {
   const auto file_of = [](const ScanInput& input) { return parse_scan_path(input.path).file; };
@@ -60,8 +65,7 @@ std::vector<std::string> check_sums(std::span<const ScanInput> inputs, const Ste
 SceneSampler scene_sampler(const PipelineResult& result, std::size_t wanted) {
   std::vector<std::uint64_t> num_points;
   for (std::size_t i = 0; i < result.scans.size(); ++i) {
-    const bool is_seen = result.poses[i].status != ScanStatus::kUnregistered;
-    num_points.push_back(is_seen ? result.scans[i].num_points : 0);
+    num_points.push_back(is_drawn(result, i) ? result.scans[i].num_points : 0);
   }
   return {num_points, wanted};
 }
@@ -75,7 +79,7 @@ std::vector<double> view_cells(const PipelineResult& result) {
 
 Image preview(const Scene& scene) {
   constexpr int kWidth = 1600, kHeight = 800;
-  return draw_preview(picture_points(scene), scene.box, kWidth, kHeight);
+  return draw_preview(picture_points(scene), scene.registered().box, kWidth, kHeight);
 }
 
 }  // namespace
@@ -101,6 +105,12 @@ void write_result(const fs::path& folder, bool overwrite, std::span<const ScanIn
   };
   if (is_seen) {
     write_registered_clouds(output.work(), inputs, result, clouds, context, kMostVoxels, watch);
+    for (std::size_t i = 0; i < inputs.size(); ++i) {
+      if (!result.has_frame_of_its_own(i)) continue;
+      watch_scan(inputs, i, result, context, [&](std::size_t scan, std::span<const Eigen::Vector3d> points) {
+        sampler.add(scan, points, result.scans[scan].origin);
+      });
+    }
   }
   const Scene scene = make_scene(result, sampler.take(view_cells(result), context.num_threads), context.num_threads);
   write_pose_file(output.work() / "poses.json",

@@ -252,7 +252,7 @@ class RobustPipeline {
       if (c == settled_.size()) {
         if (decision.accepted()) pose.reason = "the scans it agrees with are not registered";
         if (decision.accepted() || decision.reason == Reason::kNotDecided) decision.reason = Reason::kNoLink;
-        pose.verdict = "rejected";
+        pose.verdict = Verdict::kRejected;
         pose.component = next_component++;
         take_survey_pose(i, pose);
         result_.poses.push_back(std::move(pose));
@@ -265,16 +265,16 @@ class RobustPipeline {
       pose.component = number[c];
       if (i == result_.reference) {
         pose.status = ScanStatus::kReference;
-        pose.verdict = "accepted";
+        pose.verdict = Verdict::kAccepted;
         pose.reason = "the reference";
         decision.reason = Reason::kReference;
         result_.evidence[i] = std::nullopt;
       } else if (c == 0) {
         pose.status = ScanStatus::kRegistered;
-        pose.verdict = "accepted";
+        pose.verdict = Verdict::kAccepted;
         pose.T_reference_scan = T;
       } else {
-        pose.verdict = "rejected";
+        pose.verdict = Verdict::kRejected;
         pose.pose_in_component = T;
         pose.reason = i == component.reference
                           ? "the reference of a group that does not hold together with the others"
@@ -291,7 +291,7 @@ class RobustPipeline {
     pose.T_reference_scan = *placement_.T_survey_scan[scan];
     if (pose.status != ScanStatus::kUnregistered) return;
     pose.status = ScanStatus::kRegistered;
-    pose.verdict = placement_.is_confirmed[scan] ? "accepted" : "doubtful";
+    pose.verdict = placement_.is_confirmed[scan] ? Verdict::kAccepted : Verdict::kDoubtful;
     pose.pose_in_component.reset();
     pose.reason = "in the survey frame by " + result_.survey.defined_by + " of its own alone (" + pose.reason + ")";
   }
@@ -316,12 +316,12 @@ class RobustPipeline {
         record.features = link_features(h.measurements,
                                         SearchMeasurements{h.candidate.method, h.candidate.margin, h.second_best_ratio},
                                         hypotheses_->reference());
-        record.fate = "open";
         if (both != settled_.end()) {
           const auto& T = both->component.T_reference_scan;
           const Eigen::Isometry3d T_a_b = T[a]->inverse() * *T[b];
           const double apart_m = rms_displacement(T_a_b.inverse() * h.T_a_b, scans_[b].moments);
-          record.fate = apart_m < hypotheses_->same_m() ? "confirmed" : "contradicted";
+          record.status =
+              apart_m < hypotheses_->same_m() ? HypothesisStatus::kConfirmed : HypothesisStatus::kContradicted;
         }
         result_.hypotheses.push_back(record);
       }

@@ -76,9 +76,10 @@ void shade(const std::vector<float>& depth, float reach, Image& image) {
 std::vector<PicturePoint> picture_points(const Scene& scene) {
   std::vector<PicturePoint> out;
   out.reserve(scene.num_points());
-  const double low = scene.box.min().z(), size = std::max(1e-9, scene.box.sizes().z());
+  const double low = scene.registered().box.min().z(), size = std::max(1e-9, scene.registered().box.sizes().z());
   for (std::size_t i = 0; i < scene.scans.size(); ++i) {
     const SceneScan& scan = scene.scans[i];
+    if (scan.group != 0) continue;
     const Eigen::Isometry3f T = scan.T_view_scan.cast<float>();
     const auto colour = scan_colour(i);
     for (const auto& point : scan.points) {

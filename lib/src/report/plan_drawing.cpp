@@ -84,8 +84,10 @@ std::string discs(const PlanGroup& group, const Json& report) {
 std::string scale_bar(const PlanLayout& plan) {
   const double length_m = round_length(plan.width / 5 / plan.scale), to = 12 + plan.scale * length_m,
                y = plan.height - 10;
-  return print("<path d=\"M12 %.1f v6 H%.1f v-6\" fill=\"none\" stroke=\"#1c2733\"/>\n<text x=\"16\" y=\"%.1f\">",
-               y - 4, to, y - 2) +
+  return print(
+             "<path d=\"M12 %.1f v6 H%.1f v-6\" fill=\"none\" stroke=\"#1c2733\"/>\n<text class=\"scale\" x=\"16\" "
+             "y=\"%.1f\">",
+             y - 4, to, y - 2) +
          print("%g m</text>\n", length_m);
 }
 

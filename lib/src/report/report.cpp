@@ -184,7 +184,7 @@ Json report_object(const PipelineResult& result, const PipelineOptions& options,
   for (const auto& s : result.scans) report["scans"].push_back(to_json(s));
   for (std::size_t i = 0; i < result.poses.size(); ++i) {
     report["scans"][i]["status"] = to_string(result.poses[i].status);
-    report["scans"][i]["verdict"] = result.poses[i].verdict;
+    report["scans"][i]["verdict"] = to_string(result.poses[i].verdict);
     report["scans"][i]["reason"] = result.poses[i].reason;
     report["scans"][i]["component"] = result.poses[i].component;
     report["scans"][i]["pose"] = pose_json(result, i);
@@ -211,12 +211,12 @@ Json report_object(const PipelineResult& result, const PipelineOptions& options,
   for (const auto& l : result.links) {
     report["links"].push_back({{"a", result.scans[l.a].file},
                                {"b", result.scans[l.b].file},
-                               {"verdict", l.verdict},
+                               {"verdict", to_string(l.verdict)},
                                {"probability", l.probability},
                                {"reason", l.reason},
                                {"evidence", to_json(l.evidence)},
                                {"free_space", to_json(l.free_space)}});
-    if (l.strength) report["links"].back()["strength"] = to_json(*l.strength, origin);
+    if (l.strength) report["links"].back()["strength"] = to_json(*l.strength, result.local_origin(l.a));
   }
   add_residuals(result, description.report.accept.residual_m, report);
   add_acceptance(description.report.accept, !result.survey.has_frame, report);
@@ -230,7 +230,7 @@ Json report_object(const PipelineResult& result, const PipelineOptions& options,
                                     {"coarse_score", number(h.candidate.score)},
                                     {"coarse_margin", number(h.candidate.margin)},
                                     {"log_odds", h.log_odds},
-                                    {"fate", h.fate},
+                                    {"fate", to_string(h.status)},
                                     {"features", h.features},
                                     {"evidence", to_json(h.evidence)},
                                     {"free_space", to_json(h.free_space)}});

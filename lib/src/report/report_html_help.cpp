@@ -44,6 +44,36 @@ std::string advice(const Json& report, const WeakSpot& spot) {
   return out + ": one more set-up between these two would hold " + (one ? "it." : "them.");
 }
 
+// A group that holds together, but not with the rest, hangs on what leads out of it: of all pairs across, the
+// likeliest.
+std::string advice_for_group(const Json& report, int component) {
+  const auto is_inside = [&](const Json& file) {
+    const Json& scan = report.at("scans").at(scan_number(report, file));
+    return scan.at("status") == "unregistered" && scan.at("component") == component;
+  };
+  std::vector<std::size_t> members;
+  for (std::size_t i = 0; i < report.at("scans").size(); ++i) {
+    if (is_inside(report.at("scans").at(i).at("file"))) members.push_back(i);
+  }
+  const Json* likeliest = nullptr;
+  for (const auto& h : report.at("hypotheses")) {
+    if (is_inside(h.at("a")) == is_inside(h.at("b"))) continue;
+    if (likeliest == nullptr || h.at("log_odds") > likeliest->at("log_odds")) likeliest = &h;
+  }
+  const std::string start = "Scans " + scans_in_words(report, members) + " hold together (group " +
+                            std::to_string(component) + "), but are not registered with the others. ";
+  if (likeliest == nullptr || likeliest->at("log_odds").get<double>() <= 0) {
+    return start +
+           "No pair of theirs with one of them looks right: scan again from between, with 30\u202F% overlap or more, "
+           "or "
+           "leave them out where they are of another place.";
+  }
+  return start + "The likeliest link is " + scan_label(report, likeliest->at("a")) + " with " +
+         scan_label(report, likeliest->at("b")) + ", " + percent(likeliest->at("evidence").at("overlap")) +
+         " overlap, " + odds(likeliest->at("log_odds").get<double>()) +
+         ": look at these two first. One more set-up between the group and the others is needed.";
+}
+
 std::string advice_for_unregistered(const Json& report, const Json& scan) {
   const Json* likeliest = nullptr;
   for (const auto& h : report.at("hypotheses")) {
@@ -60,7 +90,7 @@ std::string advice_for_unregistered(const Json& report, const Json& scan) {
   return label + " is not registered (" + sentence(scan.at("reason")) + "). Its likeliest link is with " +
          scan_label(report, other) + ", " + percent(likeliest->at("evidence").at("overlap")) + " overlap, " +
          odds(likeliest->at("log_odds").get<double>()) +
-         ": look at these two first. One more set-up between them would settle it.";
+         ": look at these two first. One more set-up between them would show whether it is right.";
 }
 
 }  // namespace
@@ -71,12 +101,17 @@ std::string help_section(const Json& report) {
   constexpr double kFirm = 0.6;  // two links of 30 %, the least overlap that surveyors plan with
   std::string items;
   std::vector<std::size_t> registered;
+  std::vector<int> groups;
   for (std::size_t i = 0; i < report.at("scans").size(); ++i) {
     const Json& scan = report.at("scans").at(i);
-    if (scan.at("status") == "unregistered") {
-      items += item(advice_for_unregistered(report, scan));
-    } else {
+    if (scan.at("status") != "unregistered") {
       registered.push_back(i);
+    } else if (scan.at("middle_m").is_null()) {  // in no group
+      items += item(advice_for_unregistered(report, scan));
+    } else if (const int component = scan.at("component");
+               std::find(groups.begin(), groups.end(), component) == groups.end()) {
+      groups.push_back(component);
+      items += item(advice_for_group(report, component));
     }
   }
   std::size_t num_weak = 0;

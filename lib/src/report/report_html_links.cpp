@@ -150,7 +150,8 @@ std::string links_section(const Json& report) {
                "The histogram has the signed "
                "residuals" +
                ends +
-               ": a bell about 0 is good, two humps are a shift. Can move unnoticed: how far one scan moves in the "
+               ", what lies beyond in the outermost bars: a bell about 0 is good, two humps are a shift. Can move "
+               "unnoticed: how far one scan moves in the "
                "direction in which the two hold each other least until its points are off their surfaces by the noise; "
                "a rotation counts by the way of the points; then the other five directions. Verdict: whether the pair "
                "by itself proves its pose. One that is doubtful or rejected may be right: poses rest on all links."));

@@ -12,10 +12,10 @@ std::string loops_section(const Json& report) {
     for (const auto& file : loop.at("scans")) scans += (scans.empty() ? "" : " \u2013 ") + scan_label(report, file);
     rows.push_back({scans, figure(loop.at("distance_m"), 1000), figure(loop.at("rotation_deg"))});
   }
-  const std::string number = count(loops.at("loops"));
+  const std::string number = count(loops.at("loops")) + (loops.at("loops") == 1 ? " loop" : " loops");
   return section(
       "Loop misclosures",
-      "<p>" + number + " loops of three scans; root mean square misclosure " + length(loops.at("rms_m")) + ".</p>\n" +
+      "<p>" + number + " of three scans; root mean square misclosure " + length(loops.at("rms_m")) + ".</p>\n" +
           table({{"around", "wide"}, {"misclosure<br/>[mm]", "number"}, {"[\u00B0]", "number"}}, rows) +
           note("Each pair of a loop was fitted by itself, at voxels of " + length(report.at("coarse_voxel_m")) +
                ", before all were adjusted together; going round, one should come back to the start. What "

@@ -24,12 +24,15 @@ bool any_setup(const Json& report) {
   });
 }
 
+// Scans that are registered share a frame, even where control points alone tie them to the others.
+int frame_of(const Json& scan) { return scan.at("status") == "unregistered" ? scan.at("component").get<int>() : 0; }
+
 std::vector<PlanGroup> groups_of(const Json& report) {
   std::vector<PlanGroup> groups;
   const auto& scans = report.at("scans");
   for (std::size_t i = 0; i < scans.size(); ++i) {
     if (scans[i].at("middle_m").is_null()) continue;
-    const int component = scans[i].at("component").get<int>();
+    const int component = frame_of(scans[i]);
     auto group =
         std::find_if(groups.begin(), groups.end(), [&](const PlanGroup& g) { return g.component == component; });
     if (group == groups.end()) group = groups.insert(groups.end(), PlanGroup{component, {}, {}, {}});
@@ -57,19 +60,22 @@ std::string key(const char* kind, const char* text) {
 std::string legend(const Json& report) {
   if (report.contains("conventional")) return key("plain", "pair that the poses follow");
   return key("good", "accepted link; thicker: more points agree") +
-         key("fair", "rejected link: overlap that proves nothing by itself") + key("bad", "contradicts the poses");
+         key("fair", "doubtful or rejected link: by itself it does not prove the pose") +
+         key("bad", "contradicts the poses");
 }
 
 // How many points lie above one another in each pixel, from paper to ink: walls are dark.
-std::string density(const PlanLayout& plan, const Scene& scene) {
-  if (scene.num_points() == 0) return "";
+std::string density(const PlanGroup& group, const Scene& scene) {
+  const PlanLayout& plan = group.layout;
   constexpr double kPixels = 1.5;  // by unit of the drawing
   const int width = static_cast<int>(kPixels * plan.width), height = static_cast<int>(kPixels * plan.height);
   std::vector<int> counts(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 0);
   const double scale = kPixels * plan.scale;
-  for (const auto& scan : scene.scans) {
+  for (const std::size_t i : group.scans) {
+    if (scene.scans.empty()) break;  // nothing was written that points could be taken from
+    const SceneScan& scan = scene.scans[i];
     for (const auto& point : scan.points) {
-      const Eigen::Vector3d p = scan.T_view_scan * point.cast<double>() + scene.origin;
+      const Eigen::Vector3d p = scan.T_view_scan * point.cast<double>() + scene.groups[scan.group].origin;
       const int x = static_cast<int>(std::floor(width / 2.0 + scale * (p.x() - plan.centre_m.x())));
       const int y = static_cast<int>(std::floor(height / 2.0 - scale * (p.y() - plan.centre_m.y())));
       if (x < 0 || y < 0 || x >= width || y >= height) continue;
@@ -103,13 +109,15 @@ std::string plan_section(const Json& report, const Scene& scene) {
   std::string figures;
   for (auto& group : groups_of(report)) {
     if (group.scans.size() < 2) continue;
-    if (group.component == 0) group.background = density(group.layout, scene);
+    group.background = density(group, scene);
     const Json& scans = report.at("scans");
     const auto first = std::find_if(group.scans.begin(), group.scans.end(),
                                     [&](std::size_t i) { return scans[i].at("status") == "reference"; });
     figures += "<figure>\n" + plan_drawing(group, report) + "<figcaption>Group " + std::to_string(group.component) +
-               (first == group.scans.end() ? ", in a frame of its own"
-                                           : ", in the frame of " + scan_label(report, scans[*first].at("file"))) +
+               (group.component != 0             ? ", not registered with the others, in a frame of its own"
+                : !in_frame_of_reference(report) ? ", in the survey frame"
+                : first == group.scans.end()     ? ""
+                                             : ", in the frame of " + scan_label(report, scans[*first].at("file"))) +
                ", seen along its z axis: x to the right, y up. " +
                (group.layout.moved ? "Discs that would cover one another are moved apart." : "") +
                "</figcaption>\n</figure>\n";

@@ -91,7 +91,7 @@ std::string measured_section(const Json& report) {
 }
 
 std::string stages_section(const Json& report) {
-  return section("Time and memory", "<figure>\n" + bar_chart(bars(report)) + "</figure>\n");
+  return section("Time and memory", "<figure class=\"bars\">\n" + bar_chart(bars(report)) + "</figure>\n");
 }
 
 std::string options_section(const Json& report) {

@@ -1,5 +1,7 @@
 #include <string>
 
+#include <cmath>
+
 #include "report_html_parts.hpp"
 #include "report_html_text.hpp"
 
@@ -13,6 +15,18 @@ std::string status_badge(const Json& point) {
 
 std::string entry(const Json& vector, std::size_t axis) {
   return vector.is_null() ? figure(Json()) : figure(vector.at(axis), 1000);
+}
+
+// Root mean square distance of the points of a status from where they were given.
+std::string rms_of(const Json& survey, const char* status) {
+  double squares = 0;
+  int n = 0;
+  for (const auto& p : survey.at("points")) {
+    if (p.at("status").get<std::string>() != status || p.at("residual_m").is_null()) continue;
+    for (const auto& d : p.at("residual_m")) squares += d.is_number() ? std::pow(d.get<double>(), 2) : 0;
+    ++n;
+  }
+  return n == 0 ? "none" : length(Json(std::sqrt(squares / n))) + ", " + std::to_string(n) + " observed";
 }
 
 }  // namespace
@@ -32,6 +46,8 @@ std::string survey_section(const Json& report) {
       {{"frame defined by", survey.at("has_frame") == true ? sentence(survey.at("defined_by")) : "the reference scan"},
        {"coordinate system", crs.is_null() ? "not told" : escaped(crs.get_ref<const std::string&>())},
        {"rotations determined", count(survey.at("rotations_determined")) + " of 3"},
+       {"control points off by (RMS)", rms_of(survey, "used")},
+       {"check points off by (RMS)", rms_of(survey, "check")},
        {"redundant observations", count(survey.at("degrees_of_freedom"))},
        {"variance factor", figure(survey.at("variance_factor"))},
        {"scans moved among each other by at most", figure(survey.at("largest_change_m"), 1000) + " mm"}});

@@ -30,7 +30,13 @@ std::string grouped(const std::string& digits) {
 }  // namespace
 
 std::string file_name(const Json& name) {
-  return "<bdi class=\"file\">" + escaped(name.get_ref<const std::string&>()) + "</bdi>";
+  std::string text = escaped(name.get_ref<const std::string&>());
+  // Long names break after a folder rather than anywhere.
+  const std::string may_break = "<wbr/>";
+  for (auto at = text.find('/'); at != std::string::npos; at = text.find('/', at + 1 + may_break.size())) {
+    text.insert(at + 1, may_break);
+  }
+  return "<bdi class=\"file\">" + text + "</bdi>";
 }
 
 std::string sentence(const Json& text) {

@@ -9,6 +9,12 @@ namespace {
 
 bool registered(const Json& scan) { return scan.at("status") != "unregistered"; }
 
+// Of one scan there is nothing to say but that it stands by itself.
+bool is_alone(const Json& report) {
+  const auto& scans = report.at("scans");
+  return std::count_if(scans.begin(), scans.end(), registered) == 1;
+}
+
 std::string unregistered_list(const Json& report) {
   std::string items;
   for (const auto& scan : report.at("scans")) {
@@ -49,7 +55,8 @@ std::string remarks(const Json& report) {
     const bool is_free =
         scan.at("status") == "registered" && scan.contains("uncertainty") && scan.at("uncertainty").is_null();
     if (is_free) free += (free.empty() ? "" : ", ") + label;
-    if (accepted_links(report, scan.at("file")) < 2) unchecked += (unchecked.empty() ? "" : ", ") + label;
+    if (!is_alone(report) && accepted_links(report, scan.at("file")) < 2)
+      unchecked += (unchecked.empty() ? "" : ", ") + label;
   }
   if (!free.empty()) remark("Not fixed in all directions by the points that match: " + free + ".");
   if (!unchecked.empty()) {
@@ -75,7 +82,6 @@ std::string acceptance(const Json& report) {
   }
   const Json& limits = report.at("acceptance");
   const std::string asked = limits_in_words(limits);
-  const auto n = report.at("scans").size();
   if (limits.at("passed") == true) {
     std::string out = "<p><b>Within the limits</b>: every scan keeps " + asked + ".</p>\n";
     if (limits.at("failed_links") != 0) {
@@ -85,15 +91,30 @@ std::string acceptance(const Json& report) {
     return out;
   }
   std::string items;
+  std::size_t num_registered = 0, num_failed = 0;
   for (const auto& scan : report.at("scans")) {
-    if (scan.at("acceptance").at("passed") == true || !registered(scan)) continue;
+    if (!registered(scan)) continue;
+    ++num_registered;
+    if (scan.at("acceptance").at("passed") == true) continue;
+    ++num_failed;
     std::string why;
     for (const auto& failure : scan.at("acceptance").at("failures"))
       why += (why.empty() ? "" : "; ") + sentence(failure);
     items += "<li>" + scan_label(report, scan.at("file")) + ": " + why + "</li>\n";
   }
-  return "<p><b>Outside the limits</b>: " + count(limits.at("failed_scans")) + " of " + std::to_string(n) +
-         " scans do not keep " + asked + ".</p>\n" + (items.empty() ? "" : "<ul>\n" + items + "</ul>\n");
+  if (num_failed == 0) {
+    return "<p><b>Outside the limits</b>: scans are not registered. Those that are keep " + asked + ".</p>\n";
+  }
+  return "<p><b>Outside the limits</b>: " + std::to_string(num_failed) + " of " + std::to_string(num_registered) +
+         (num_registered < report.at("scans").size() ? " registered scans" : " scans") +
+         (num_failed == 1 ? " does not keep " : " do not keep ") + asked + ".</p>\n<ul>\n" + items + "</ul>\n";
+}
+
+bool has_blunder(const Json& report) {
+  const Json survey = report.value("survey", Json());
+  if (survey.is_null()) return false;
+  const auto& points = survey.at("points");
+  return std::any_of(points.begin(), points.end(), [](const Json& p) { return p.at("status") == "blunder"; });
 }
 
 // The largest norm over the registered scans, NaN where none is known.
@@ -136,7 +157,10 @@ std::string key_figures(const Json& report) {
   if (!links.empty()) {
     pairs.push_back({"links accepted", std::to_string(accepted) + " of " + std::to_string(links.size())});
   }
-  const std::vector<std::size_t> order = links_worst_first(report);
+  std::vector<std::size_t> order = links_worst_first(report);
+  std::erase_if(order, [&](std::size_t k) {
+    return !registered(report.at("scans").at(scan_number(report, links.at(k).at("a"))));
+  });
   if (!order.empty() && report.contains("residuals") && !report.at("residuals").is_null()) {
     const Json& worst = links.at(order.front());
     if (!worst.at("residuals").is_null()) {
@@ -168,11 +192,14 @@ std::string verdict_section(const Json& report) {
   const bool all = placed == static_cast<std::ptrdiff_t>(scans.size());
   const std::string of =
       all ? "All " + std::to_string(placed) : std::to_string(placed) + " of " + std::to_string(scans.size());
-  const bool doubts = !verifies(report) || !report.at("adjustment").at("outlying_links").empty();
+  const bool doubts = !verifies(report) || !report.at("adjustment").at("outlying_links").empty() || has_blunder(report);
   const bool passes = !report.contains("acceptance") || report.at("acceptance").at("passed") == true;
   const std::string kind = !all || !passes ? "bad" : doubts ? "fair" : "good";
-  const std::string line =
-      of + (verifies(report) ? " scans are registered." : " scans have a pose, none of them verified.");
+  const std::string line = !verifies(report)  ? of + " scans have a pose, none of them verified."
+                           : is_alone(report) ? "No scan is registered with another: " + std::to_string(scans.size()) +
+                                                    " scans, and nothing that holds two of them together in the "
+                                                    "frame of the reference."
+                                              : of + " scans are registered.";
   return "<section>\n<div class=\"verdict " + kind + "\">\n<p class=\"line\">" + line + "</p>\n" + acceptance(report) +
          unregistered_list(report) + remarks(report) + "</div>\n</section>\n";
 }

@@ -28,7 +28,7 @@ using PairPoses = std::map<std::pair<std::size_t, std::size_t>, const LinkHypoth
 PairPoses confirmed_pairs(const PipelineResult& result) {
   PairPoses best;
   for (const auto& h : result.hypotheses) {
-    if (h.fate != "confirmed" || h.log_odds <= 0) continue;
+    if (h.status != HypothesisStatus::kConfirmed || h.log_odds <= 0) continue;
     const LinkHypothesisRecord*& entry = best[std::minmax(h.a, h.b)];
     if (entry == nullptr || h.log_odds > entry->log_odds) entry = &h;
   }

@@ -79,10 +79,10 @@ ResidualsOfRun residuals_of(const PipelineResult& result, double limit_m) {
   for (const LinkRecord& link : result.links) {
     std::vector<float> distances;
     append(link, distances);
-    if (link.verdict != "rejected") {
+    if (link.verdict != Verdict::kRejected) {
       append(link, of_scan[link.a]);
       append(link, of_scan[link.b]);
-      append(link, all);
+      if (!result.has_frame_of_its_own(link.a)) append(link, all);
     }
     out.links.push_back(residual_statistics(std::move(distances), limit_m, most_m));
   }

@@ -82,6 +82,14 @@ void measure_distances(const PipelineResult& result, int num_threads, Scene& sce
   });
 }
 
+std::size_t group_of(int component, const Eigen::Vector3d& origin, Scene& scene) {
+  const auto known = std::find_if(scene.groups.begin() + 1, scene.groups.end(),
+                                  [&](const SceneGroup& g) { return g.component == component; });
+  const auto number = static_cast<std::size_t>(known - scene.groups.begin());
+  if (known == scene.groups.end()) scene.groups.push_back({component, origin, {}});
+  return number;
+}
+
 }  // namespace
 
 std::size_t Scene::num_points() const {
@@ -90,10 +98,11 @@ std::size_t Scene::num_points() const {
   return n;
 }
 
-Eigen::AlignedBox3d box_without_stray_points(const Scene& scene) {
+Eigen::AlignedBox3d box_without_stray_points(const Scene& scene, std::size_t group) {
   constexpr std::size_t kEvery = 5;  // points are enough to find where nearly all are
   std::array<std::vector<double>, 3> values;
   for (const auto& scan : scene.scans) {
+    if (scan.group != group) continue;
     for (std::size_t k = 0; k < scan.points.size(); k += kEvery) {
       const Eigen::Vector3d p = scan.T_view_scan * scan.points[k].cast<double>();
       for (int axis = 0; axis < 3; ++axis) values[static_cast<std::size_t>(axis)].push_back(p[axis]);
@@ -114,22 +123,26 @@ Eigen::AlignedBox3d box_without_stray_points(const Scene& scene) {
 
 Scene make_scene(const PipelineResult& result, ScenePoints points, int num_threads) {
   Scene scene;
-  scene.origin = result.local_origin();
+  scene.groups.front().origin = result.local_origin();
   scene.scans.resize(result.scans.size());
   for (std::size_t i = 0; i < scene.scans.size(); ++i) {
     SceneScan& scan = scene.scans[i];
+    const ScanPose& pose = result.poses[i];
     const Eigen::Vector3d& origin = result.scans[i].origin;
+    if (result.has_frame_of_its_own(i)) scan.group = group_of(pose.component, result.local_origin(i), scene);
     scan.points = std::move(points[i]);
-    scan.T_input_scan.translation() = origin - result.scans[result.reference].origin;
-    scan.T_view_scan = result.poses[i].T_reference_scan * Eigen::Translation3d(origin);
-    scan.T_view_scan.pretranslate(-scene.origin);
+    const bool is_in_group = scan.group != 0;
+    scan.T_input_scan.translation() =
+        origin - (is_in_group ? scene.groups[scan.group].origin : result.scans[result.reference].origin);
+    scan.T_view_scan = (is_in_group ? *pose.pose_in_component : pose.T_reference_scan) * Eigen::Translation3d(origin);
+    scan.T_view_scan.pretranslate(-scene.groups[scan.group].origin);
     scan.middle = scan.T_view_scan * result.scans[i].middle;
-    if (result.poses[i].status == ScanStatus::kUnregistered || result.viewpoints.empty()) continue;
+    if ((pose.status == ScanStatus::kUnregistered && !is_in_group) || result.viewpoints.empty()) continue;
     const auto& viewpoint = result.viewpoints[i];
     if (viewpoint && viewpoint->determined()) scan.setup = scan.T_view_scan * (viewpoint->place - origin);
   }
   measure_distances(result, num_threads, scene);
-  scene.box = box_without_stray_points(scene);
+  for (std::size_t g = 0; g < scene.groups.size(); ++g) scene.groups[g].box = box_without_stray_points(scene, g);
   return scene;
 }
 

@@ -50,7 +50,7 @@ double rms(const std::vector<LinkResidual>& residuals) {
 
 std::vector<SectionCut> choose_sections(const PipelineResult& result) {
   const auto usable = [&](const LinkRecord& link) {
-    return link.residuals.contact && link.verdict != "rejected" &&
+    return link.residuals.contact && link.verdict != Verdict::kRejected &&
            result.poses[link.a].status != ScanStatus::kUnregistered &&
            result.poses[link.b].status != ScanStatus::kUnregistered;
   };

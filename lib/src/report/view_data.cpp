@@ -73,14 +73,18 @@ std::string without_markup(const std::string& json) {
 }  // namespace
 
 std::string view_data(const Scene& scene, const Json& report) {
-  Json data{{"most_m", scene.most_m}, {"box", {floats(scene.box.min()), floats(scene.box.max())}}};
+  Json data{{"most_m", scene.most_m}};
+  for (const SceneGroup& group : scene.groups) {
+    data["groups"].push_back(
+        {{"component", group.component}, {"box", {floats(group.box.min()), floats(group.box.max())}}});
+  }
   data["scans"] = Json::array();
   for (std::size_t i = 0; i < scene.scans.size(); ++i) {
     const SceneScan& scan = scene.scans[i];
     const Json& told = report.at("scans").at(i);
     Json j{{"file", told.at("file")},
            {"status", told.at("status")},
-           {"component", told.at("component")},
+           {"group", scan.group},
            {"colour", colour_text(i)},
            {"registered", matrix_json(scan.T_view_scan)},
            {"input", matrix_json(scan.T_input_scan)},
@@ -101,12 +105,13 @@ std::string view_data(const Scene& scene, const Json& report) {
     j["b"] = number_of(link.at("b"));
     if (link.contains("strength")) {
       const Json& centre = link.at("strength").at("centre_m");
+      const Eigen::Vector3d& origin = scene.groups[scene.scans[j["a"].get<std::size_t>()].group].origin;
       Eigen::Vector3d at;
       for (int k = 0; k < 3; ++k)
         at[k] = centre.at(static_cast<std::size_t>(k)).is_number()
                     ? centre.at(static_cast<std::size_t>(k)).get<double>()
                     : 0;
-      j["strength"] = {{"centre", floats(at - scene.origin)},
+      j["strength"] = {{"centre", floats(at - origin)},
                        {"radius_m", link.at("strength").at("radius_m")},
                        {"axis", link.at("strength").at("axes").at(0)}};
     }

@@ -16,6 +16,7 @@
 #include "tcm_icp/core/verdict.hpp"
 #include "tcm_icp/io/output_options.hpp"
 #include "tcm_icp/io/scan_source.hpp"
+#include "tcm_icp/outliers/outlier_method.hpp"
 #include "tcm_icp/scans/sampling_options.hpp"
 #include "tcm_icp/survey/survey.hpp"
 
@@ -37,9 +38,10 @@ struct RegistrationOptions {
   std::string reference;                 ///< name or number of the scan whose frame the result is in; empty: chosen
   bool level = false;                    ///< z points up in every scan, within 10 degrees
   SamplingOptions sampling;              ///< how scans are thinned for what looks at them
-  InitialPoses initial_poses;            ///< one a scan; empty: none. In the robust profile candidates like others
-  Survey survey;                         ///< what defines the frame in place of the reference scan; robust profile only
-  void validate() const;                 ///< throws InvalidOptions naming field, value and bound
+  OutlierMethod outliers = OutlierMethod::kKMeans;  ///< what is left out of each scan, and of the merged cloud
+  InitialPoses initial_poses;  ///< one a scan; empty: none. In the robust profile candidates like others
+  Survey survey;               ///< what defines the frame in place of the reference scan; robust profile only
+  void validate() const;       ///< throws InvalidOptions naming field, value and bound
 };
 
 /// What became of one scan.

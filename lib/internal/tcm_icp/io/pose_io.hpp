@@ -17,7 +17,8 @@ struct ScanPose {
   Eigen::Isometry3d T_reference_scan = Eigen::Isometry3d::Identity();  ///< [m] for raw coordinates; unless unregistered
   std::optional<Eigen::Isometry3d> pose_in_component;  ///< for scans that hold together, but not with the reference
   int component = 0;
-  std::string verdict, reason;
+  Verdict verdict = Verdict::kRejected;
+  std::string reason;      ///< for a person
   std::string unit = "m";  ///< of the coordinates in the file; poses are for these in metres
 };
 

@@ -5,8 +5,10 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "tcm_icp/coarse/pose_candidate.hpp"
+#include "tcm_icp/core/verdict.hpp"
 #include "tcm_icp/links/link_measurements.hpp"
 #include "tcm_icp/links/link_residuals.hpp"
 #include "tcm_icp/registration/link_strength.hpp"
@@ -19,10 +21,21 @@ struct LinkRecord {
   AlignmentEvidence evidence;  ///< of the direction that overlaps more
   FreeSpaceEvidence free_space;
   double probability = 0;  ///< that the pose is right, by the pair alone
-  std::string verdict, reason;
+  Verdict verdict = Verdict::kRejected;
+  std::string reason;                    ///< for a person
   std::optional<LinkStrength> strength;  ///< in the reference's local frame; robust profile only
   LinkResiduals residuals = {};          ///< at the resolution scans were adjusted with; robust profile only
 };
+
+/// What the final poses say of a pose that a pair may have.
+enum class HypothesisStatus {
+  kOpen,          ///< nothing: no group has both scans
+  kConfirmed,     ///< they have it
+  kContradicted,  ///< they have another
+};
+
+/// "open", "confirmed", "contradicted": `fate` in report.json.
+std::string_view to_string(HypothesisStatus status);
 
 /// A pose that a pair may have, found without a guess, and what became of it.
 struct LinkHypothesisRecord {
@@ -33,7 +46,7 @@ struct LinkHypothesisRecord {
   FreeSpaceEvidence free_space;
   double log_odds = 0;      ///< that it is right, by the pair alone
   LinkFeatures features{};  ///< what that was told from
-  std::string fate;         ///< confirmed or contradicted by the final poses; open where no group has both scans
+  HypothesisStatus status = HypothesisStatus::kOpen;
 };
 
 }  // namespace tcm_icp

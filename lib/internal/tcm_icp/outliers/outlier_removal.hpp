@@ -9,15 +9,9 @@
 #include "tcm_icp/core/cloud.hpp"
 #include "tcm_icp/core/random.hpp"
 #include "tcm_icp/core/voxel_sampler.hpp"
+#include "tcm_icp/outliers/outlier_method.hpp"
 
 namespace tcm_icp {
-
-enum class OutlierMethod {
-  kKMeans,    ///< the paper's: far from every k-means centroid
-  kDistance,  ///< far from its nearest neighbours (CGAL::remove_outliers)
-  kLof,       ///< much sparser than its neighbours' neighbourhoods (local outlier factor)
-  kNone
-};
 
 /// Lengths and counts that are 0 are derived from the scan; docs/decisions/0005-outlier-threshold.md says how.
 struct OutlierOptions {

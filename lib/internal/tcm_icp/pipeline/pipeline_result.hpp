@@ -77,6 +77,12 @@ struct PipelineResult {
   bool all_registered() const;
   /// [m] The local frame, in which uncertainties and strengths are, is the common one minus this.
   Eigen::Vector3d local_origin() const { return survey.has_frame ? survey.origin : scans[reference].origin; }
+  /// [m] The same of the frame that a scan is in, its group's where that is not the common one. Cost O(scans).
+  Eigen::Vector3d local_origin(std::size_t scan) const;
+  /// Whether a scan holds together with others, but not with the reference.
+  bool has_frame_of_its_own(std::size_t scan) const {
+    return poses[scan].status == ScanStatus::kUnregistered && poses[scan].pose_in_component;
+  }
 };
 
 }  // namespace tcm_icp

@@ -47,7 +47,7 @@ function pointsOf(scan, data) {
       registered: {value: new THREE.Matrix4().fromArray(scan.registered)},
       least: {value: new THREE.Vector3(...scan.least)}, size: {value: new THREE.Vector3(...scan.size)},
       colour: {value: new THREE.Color(scan.colour)}, mode: {value: kByScan}, pixels: {value: 1},
-      heightLow: {value: data.box[0][2]}, heightHigh: {value: data.box[1][2]},
+      heightLow: {value: data.groups[scan.group].box[0][2]}, heightHigh: {value: data.groups[scan.group].box[1][2]},
     },
   });
   const points = new THREE.Points(geometry, material);

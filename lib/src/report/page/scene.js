@@ -1,5 +1,8 @@
 // Camera, points, set-ups and links in one scene.
 
+// Set-ups and links lie within the cloud: its points do not hide them.
+const onTop = look => new THREE.MeshBasicMaterial({...look, depthTest: false, depthWrite: false});
+
 class CloudView {
   constructor(canvas, data) {
     this.data = data;
@@ -12,9 +15,7 @@ class CloudView {
     this.controls = new THREE.OrbitControls(this.camera, canvas);
     this.controls.enableKeys = false;  // arrow keys scroll the page
     this.controls.addEventListener('change', () => this.draw());
-    this.low = new THREE.Vector3(...data.box[0]);
-    this.high = new THREE.Vector3(...data.box[1]);
-    this.reach = Math.max(this.high.distanceTo(this.low), 1e-3);
+    this.group = 0;
     this.clouds = data.scans.map(scan => pointsOf(scan, data));
     this.clouds.forEach(cloud => this.scene.add(cloud));
     this.setups = this.makeSetups();
@@ -28,15 +29,28 @@ class CloudView {
     this.look('oblique');
   }
 
+  // Each group has a frame of its own; they are shown one at a time.
+  boxOf(group) {
+    return this.data.groups[group].box.map(corner => new THREE.Vector3(...corner));
+  }
+
+  reachOf(group) {
+    const [low, high] = this.boxOf(group);
+    return Math.max(high.distanceTo(low), 1e-3);
+  }
+
   makeSetups() {
-    const group = new THREE.Group(), size = this.reach / 140;
+    const group = new THREE.Group();
     for (const scan of this.data.scans) {
       if (!scan.count) continue;
+      const size = this.reachOf(scan.group) / 140;
       const ball = scan.setup ? new THREE.ConeGeometry(0.8 * size, 2 * size, 12).rotateX(-Math.PI / 2)
                               : new THREE.SphereGeometry(0.7 * size, 12, 8);
-      const mark = new THREE.Mesh(ball, new THREE.MeshBasicMaterial({color: scan.colour}));
-      const rim = new THREE.Mesh(ball, new THREE.MeshBasicMaterial({color: 0x1c2733, side: THREE.BackSide}));
+      const mark = new THREE.Mesh(ball, onTop({color: scan.colour}));
+      const rim = new THREE.Mesh(ball, onTop({color: 0x1c2733, side: THREE.BackSide}));
       rim.scale.setScalar(1.3);
+      rim.renderOrder = 2;
+      mark.renderOrder = 3;
       mark.add(rim);
       mark.position.copy(placeOf(scan));
       mark.userData.scan = scan;
@@ -48,10 +62,15 @@ class CloudView {
 
   makeLines() {
     const group = new THREE.Group(), colours = {accepted: 0x1a7f37, doubtful: 0xd08700, rejected: 0xc62828};
+    const rod = new THREE.CylinderGeometry(1, 1, 1, 6, 1).rotateX(Math.PI / 2);  // lines are one pixel wide at most
     this.data.links.forEach((link, number) => {
       const ends = [placeOf(this.data.scans[link.a]), placeOf(this.data.scans[link.b])];
-      const line = new THREE.Line(new THREE.BufferGeometry().setFromPoints(ends),
-                                  new THREE.LineBasicMaterial({color: colours[link.verdict] || 0x6b7885}));
+      const line = new THREE.Mesh(rod, onTop({color: colours[link.verdict] || 0x6b7885}));
+      const width = this.reachOf(this.data.scans[link.a].group) / 900;
+      line.position.addVectors(ends[0], ends[1]).multiplyScalar(0.5);
+      line.lookAt(ends[1]);
+      line.scale.set(width, width, Math.max(ends[0].distanceTo(ends[1]), 1e-6));
+      line.renderOrder = 1;
       line.userData = {link: number, ends};
       group.add(line);
     });
@@ -61,7 +80,7 @@ class CloudView {
 
   look(from) {
     const directions = {oblique: [-0.55, -0.75, 0.62], top: [0, -0.0005, 1], side: [0, -1, 0.06]};
-    const box = this.registered ? [this.low, this.high] : this.inputBox();
+    const box = this.registered ? this.boxOf(this.group) : this.inputBox();
     const middle = box[0].clone().add(box[1]).multiplyScalar(0.5), reach = Math.max(box[1].distanceTo(box[0]), 1e-3);
     const towards = new THREE.Vector3(...directions[from]).normalize();
     const spare = from === 'oblique' ? 0.82 : 1.02;  // the box's corners are empty, seen obliquely
@@ -92,7 +111,7 @@ class CloudView {
   inputBox() {
     const low = new THREE.Vector3(Infinity, Infinity, Infinity), high = low.clone().negate();
     for (const scan of this.data.scans) {
-      if (!scan.count) continue;
+      if (!scan.count || scan.group !== this.group) continue;
       const matrix = new THREE.Matrix4().fromArray(scan.input);
       for (const corner of [0, 1]) {
         const p = new THREE.Vector3(...scan.least.map((x, k) => x + corner * scan.size[k])).applyMatrix4(matrix);
@@ -114,7 +133,13 @@ class CloudView {
     this.look('oblique');
   }
 
+  setGroup(group) {
+    this.group = group;
+    this.look('oblique');
+  }
+
   isVisible(scan) {
+    if (scan.group !== this.group) return false;
     if (this.selected === null) return scan.shown;
     const link = this.data.links[this.selected];
     return scan.number === link.a || scan.number === link.b;
@@ -131,7 +156,7 @@ class CloudView {
   }
 
   draw() {
-    const pixels = this.pointSize * this.canvas.height * this.reach / 1100;
+    const pixels = this.pointSize * this.canvas.height * this.reachOf(this.group) / 1100;
     this.clouds.forEach((cloud, i) => {
       cloud.visible = this.isVisible(this.data.scans[i]);
       cloud.material.uniforms.mode.value = this.mode;
@@ -141,7 +166,8 @@ class CloudView {
     this.lines.children.forEach(line => {
       const link = this.data.links[line.userData.link];
       const scans = [this.data.scans[link.a], this.data.scans[link.b]];
-      line.visible = drawn && (this.selected === null ? scans.every(s => s.shown) : line.userData.link === this.selected);
+      const shown = s => s.group === this.group && (this.selected !== null || s.shown);
+      line.visible = drawn && scans.every(shown) && (this.selected === null || line.userData.link === this.selected);
     });
     this.setups.children.forEach(mark => {
       mark.visible = this.registered && this.withSetups && this.isVisible(mark.userData.scan);
@@ -180,9 +206,10 @@ class CloudView {
     const slide = number === null ? null : slideOf(this.data.links[number]);
     if (slide && slide.direction) {
       const direction = new THREE.Vector3(...slide.direction), from = new THREE.Vector3(...slide.centre);
+      const reach = this.reachOf(this.group);
       for (const sign of [1, -1]) {
-        this.marks.add(new THREE.ArrowHelper(direction.clone().multiplyScalar(sign), from, this.reach / 7, 0xc62828,
-                                             this.reach / 40, this.reach / 60));
+        this.marks.add(new THREE.ArrowHelper(direction.clone().multiplyScalar(sign), from, reach / 7, 0xc62828,
+                                             reach / 40, reach / 60));
       }
     }
     this.draw();

@@ -21,7 +21,7 @@ function labelsOf(view, stage) {
 }
 
 function fillScanList(list, view) {
-  const boxes = [];
+  const boxes = [], entries = [];
   const add = (text, colour, change) => {
     const label = document.createElement('label'), box = document.createElement('input');
     box.type = 'checkbox';
@@ -36,22 +36,37 @@ function fillScanList(list, view) {
     }
     label.append(text);
     list.append(label);
+    entries.push(label);
     return box;
   };
-  const all = add('all', null, on => boxes.forEach(([box, scan]) => {
+  const ofGroup = () => boxes.filter(([, scan]) => scan.group === view.group);
+  const all = add('all', null, on => ofGroup().forEach(([box, scan]) => {
     box.checked = scan.shown = on;
   }) || view.select(null) || view.onSelect(null));
   for (const scan of view.data.scans) {
     if (!scan.count) continue;
     boxes.push([add(scan.name, scan.colour, on => {
       scan.shown = on;
-      all.checked = boxes.every(([box]) => box.checked);
+      all.checked = ofGroup().every(([box]) => box.checked);
       view.draw();
     }), scan]);
   }
+  const showGroup = () => {
+    boxes.forEach(([, scan], k) => entries[k + 1].hidden = scan.group !== view.group);
+    all.checked = ofGroup().every(([box]) => box.checked);
+  };
+  showGroup();
+  return showGroup;
 }
 
-function connect(view, part) {
+// What is not registered with the rest is not taken for it.
+function groupText(view) {
+  const group = view.data.groups[view.group], scans = view.data.scans.filter(scan => scan.count && scan.group === view.group);
+  return 'Group ' + group.component + ': its ' + scans.length + ' scans hold together, but are not registered with the ' +
+      'others. They are shown in a frame of their own.';
+}
+
+function connect(view, part, showGroup) {
   const choices = (name, act) => part.querySelectorAll('[name=' + name + ']').forEach(
       input => input.addEventListener('change', () => act(input.value)));
   const modes = {scan: kByScan, height: kByHeight, distance: kByDistance};
@@ -59,15 +74,28 @@ function connect(view, part) {
   const tellLegend = mode => {
     legend.hidden = mode === 'scan';
     if (mode === 'scan') return;
-    const byHeight = mode === 'height', tell = (name, text) => legend.querySelector(name).textContent = text;
+    const byHeight = mode === 'height', box = view.boxOf(view.group), tell = (name, text) => legend.querySelector(name).textContent = text;
     tell('.low', byHeight ? 'low' : '0');
     tell('.half', byHeight ? '' : lengthText(view.data.most_m / 4));  // the scale is that of the root
-    tell('.high', byHeight ? lengthText(view.data.box[1][2] - view.data.box[0][2]) + ' above' : lengthText(view.data.most_m));
+    tell('.high', byHeight ? lengthText(box[1].z - box[0].z) + ' above' : lengthText(view.data.most_m));
     tell('em', byHeight ? '' : 'grey: no other scan near');
   };
   choices('view-colour', value => {
     view.setMode(modes[value]);
     tellLegend(value);
+  });
+  const own = part.querySelector('.view-own'), groups = part.querySelectorAll('[name=view-group]');
+  const takeGroup = group => {
+    view.setGroup(group);
+    groups.forEach(input => input.checked = Number(input.value) === group);
+    own.hidden = group === 0;
+    if (group !== 0) own.textContent = groupText(view);
+    showGroup();
+    tellLegend(part.querySelector('[name=view-colour]:checked').value);
+  };
+  choices('view-group', value => {
+    choose(null);
+    takeGroup(Number(value));
   });
   choices('view-state', value => view.setRegistered(value === 'registered'));
   part.querySelectorAll('[data-look]').forEach(
@@ -97,6 +125,8 @@ function connect(view, part) {
     panel.append(close);
   };
   const choose = number => {
+    const group = number === null ? view.group : view.data.scans[view.data.links[number].a].group;
+    if (group !== view.group) takeGroup(group);
     view.select(number);
     view.onSelect(number);
   };
@@ -125,8 +155,7 @@ function start() {
     stage.append(canvas);
     const view = new CloudView(canvas, data);
     view.onDraw = labelsOf(view, stage);
-    connect(view, part);
-    fillScanList(part.querySelector('.view-scans'), view);
+    connect(view, part, fillScanList(part.querySelector('.view-scans'), view));
     part.classList.add('live');
     new ResizeObserver(() => view.resize()).observe(canvas);
     view.resize();
