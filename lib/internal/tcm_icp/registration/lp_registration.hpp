@@ -34,12 +34,12 @@ struct LpRegistrationOptions {
 /// One L1 point-to-plane step: the twist about `centre` that minimises sum |n . (p + w x (p - centre) + t - q)|, 6
 /// unknowns, solved exactly through its dual linear program. Rotations are scaled by the matches' RMS radius.
 /// @param iterations  what the step did is added to its LP figures
-Termination lp_point_to_plane_step(const std::vector<Correspondence>& matches, const L1FitOptions& options,
+Termination lp_point_to_plane_step(const Correspondences& matches, const L1FitOptions& options,
                                    Eigen::Isometry3d& T_target_source, LpFigures& figures, double& step_m);
 
 /// A step of any formulation, for comparison; kPointToPlane is the function above.
 /// @note The L1 norm of a vector depends on the axes: kPointToPoint and kEntries are not the same in a turned frame.
-Termination registration_step(LpFormulation formulation, const std::vector<Correspondence>& matches,
+Termination registration_step(LpFormulation formulation, const Correspondences& matches,
                               const L1FitOptions& options, Eigen::Isometry3d& T_target_source, LpFigures& figures,
                               double& step_m);
 
