@@ -68,10 +68,9 @@ std::optional<std::size_t> memory_bytes(const std::string& text) {
   double megabytes = 0;
   const char* const end = text.data() + text.size();
   const auto [rest, error] = std::from_chars(text.data(), end, megabytes, std::chars_format::fixed);
-  const std::size_t power =
-      error == std::errc() && end - rest == 1
-          ? kUnits.find(static_cast<char>(std::toupper(static_cast<unsigned char>(*rest))))
-          : std::string_view::npos;
+  const std::size_t power = error == std::errc() && end - rest == 1
+                                ? kUnits.find(static_cast<char>(std::toupper(static_cast<unsigned char>(*rest))))
+                                : std::string_view::npos;
   if (power == std::string_view::npos) {
     throw InvalidOptions("--memory '" + text + "': give a size as 4G or 500M (units M, G, T), auto or none");
   }

@@ -3,10 +3,11 @@
 
   large_sets.py --out DIR [--exe TCM_ICP] [--scans 60 120 250 500 1000] [--threads N] [--docs] [-- REGISTER_OPTION...]
 
-Makes each town (town-grid, about 35,000 points a scan), registers it without initial poses and judges the result:
-DIR/large-sets.csv and DIR/results-large-sets.png. --docs copies them to docs/results and docs/images. Sets and results that are
-there are used again. A thousand scans take about half an hour and some 20 GB in DIR. Needs numpy and matplotlib. Without --exe,
-the tcm-icp on PATH is measured, else the one in build/.
+Makes a town of as many scans as the largest set has (town-grid, about 35,000 points a scan), registers its first scans without
+initial poses, as many as each set has, and judges the results: DIR/large-sets.csv and DIR/results-large-sets.png. --docs copies
+them to docs/results and docs/images. The town and results that are there are used again. All sizes take about an hour of
+processor time, and 5 GB in DIR. Needs numpy and matplotlib. Without --exe, the tcm-icp on PATH is measured, else the one in
+build/.
 """
 
 import argparse
@@ -47,12 +48,34 @@ def spent(command):
     return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime, wall_s
 
 
-def measured(exe, num_scans, threads, options, out):
-    """A line of the table."""
-    scene, result, times = out / f"town-{num_scans}", out / f"result-{num_scans}", out / f"times-{num_scans}.json"
-    if not (scene / "truth.json").exists():
-        subprocess.run([exe, "simulate", *SIMULATED, "--scans", str(num_scans), "--out", scene, "--force", "--quiet"],
+def simulated(exe, num_scans, out):
+    """The folder of a town of so many scans."""
+    town = out / "town"
+    if not (town / "truth.json").exists():
+        subprocess.run([exe, "simulate", *SIMULATED, "--scans", str(num_scans), "--out", town, "--force", "--quiet"],
                        check=True)
+    return town
+
+
+def first_scans(town, num_scans, folder):
+    """Links to the first scans of a town in a folder of their own, with their truth."""
+    truth = json.loads((town / "truth.json").read_text(encoding="utf-8"))
+    if num_scans > len(truth["scans"]):
+        sys.exit(f"large_sets.py: {town} has {len(truth['scans'])} scans, not {num_scans}: name another --out")
+    del truth["overlap"]
+    truth["scans"] = truth["scans"][:num_scans]
+    folder.mkdir(exist_ok=True)
+    for scan in truth["scans"]:
+        link = folder / scan["file"]
+        if not link.exists():
+            link.symlink_to((town / scan["file"]).resolve())
+    (folder / "truth.json").write_text(json.dumps(truth), encoding="utf-8")
+
+
+def measured(exe, town, num_scans, threads, options, out):
+    """A line of the table."""
+    scene, result, times = out / f"scans-{num_scans}", out / f"result-{num_scans}", out / f"times-{num_scans}.json"
+    first_scans(town, num_scans, scene)
     if not times.exists() or not (result / "poses.json").exists():
         cpu_s, wall_s = spent([exe, "register", *sorted(scene.glob("*.ply")), "--out", result, "--force", "--quiet",
                                "--threads", str(threads), *options])
@@ -104,9 +127,10 @@ def main():
     arguments = parser.parse_args()
     exe = find_exe("large_sets.py", arguments.exe)
     arguments.out.mkdir(parents=True, exist_ok=True)
+    town = simulated(exe, max(arguments.scans), arguments.out)
     rows = []
     for num_scans in arguments.scans:
-        rows.append(measured(exe, num_scans, arguments.threads, arguments.options, arguments.out))
+        rows.append(measured(exe, town, num_scans, arguments.threads, arguments.options, arguments.out))
         print(dict(zip(HEADER, rows[-1])), flush=True)
         with open(arguments.out / "large-sets.csv", "w", newline="", encoding="utf-8") as f:
             out = csv.writer(f)

@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::size_t kMegabyte = 1 << 20;
 
-class PagedMemory : public testing::Test {
+class PagedMemory : public ::testing::Test {
  protected:
   void SetUp() override { ASSERT_TRUE(open_paged_memory(std::filesystem::temp_directory_path())); }
 

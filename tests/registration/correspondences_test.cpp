@@ -19,8 +19,7 @@ using Eigen::Vector3d;
 PyramidLevel level_of(const Cloud& cloud) { return {0.1, cloud, NeighborIndex(cloud.points)}; }
 
 // By loop over all pairs.
-Correspondences slowly(const Cloud& source, const Isometry3d& T, const Cloud& target,
-                                   const CorrespondenceGate& gate) {
+Correspondences slowly(const Cloud& source, const Isometry3d& T, const Cloud& target, const CorrespondenceGate& gate) {
   Correspondences out;
   for (std::size_t i = 0; i < source.size(); ++i) {
     const Vector3d p = T * source.points[i];

@@ -56,7 +56,11 @@ class FlatTree {
       return;
     }
     const auto cut = static_cast<typename Tree::Internal_node_const_handle>(node);
-    nodes_[place] = {cut->lower_low_value(), cut->lower_high_value(), cut->upper_low_value(), cut->upper_high_value(), 0,
+    nodes_[place] = {cut->lower_low_value(),
+                     cut->lower_high_value(),
+                     cut->upper_low_value(),
+                     cut->upper_high_value(),
+                     0,
                      static_cast<std::uint32_t>(cut->cutting_dimension())};
     add(tree, cut->lower());
     nodes_[place].upper_or_begin = static_cast<std::uint32_t>(nodes_.size());

@@ -12,9 +12,9 @@
 
 namespace tcm_icp {
 
-/// While one is alive, what in_budget() copied lies in a file without a name in the folder of TMPDIR, or /var/tmp, whose
-/// pages leave the process where nine tenths of the limit are used. A thread looks after it a hundred times a second, so
-/// that no code has to say what it needs and what not. Results are the same bits with and without.
+/// While one is alive, what in_budget() copied lies in a file without a name in the folder of TMPDIR, or /var/tmp,
+/// whose pages leave the process where nine tenths of the limit are used. A thread looks after it a hundred times a
+/// second, so that no code has to say what it needs and what not. Results are the same bits with and without.
 class MemoryBudget {
  public:
   /// @param context  its memory_limit counts, 0 for none; outlives the budget

@@ -21,8 +21,8 @@ std::size_t number_in(const std::string& path) {
 
 // Of the control group and all above it: inside a container the group's own files lie at the root.
 std::size_t group_limit() {
-  std::size_t least = std::min(number_in("/sys/fs/cgroup/memory.max"),
-                               number_in("/sys/fs/cgroup/memory/memory.limit_in_bytes"));
+  std::size_t least =
+      std::min(number_in("/sys/fs/cgroup/memory.max"), number_in("/sys/fs/cgroup/memory/memory.limit_in_bytes"));
   std::ifstream groups("/proc/self/cgroup");
   for (std::string line; std::getline(groups, line);) {
     const bool version_2 = line.starts_with("0::/");

@@ -28,11 +28,11 @@ struct PagedFile {
   std::mutex mutex;
   int descriptor = -1;
   std::atomic<char*> begin{nullptr};
-  std::atomic<std::size_t> size{0};   // of addresses
-  std::atomic<std::size_t> end{0};    // of what was ever given out
+  std::atomic<std::size_t> size{0};                    // of addresses
+  std::atomic<std::size_t> end{0};                     // of what was ever given out
   std::map<std::size_t, std::vector<char*>> returned;  // what was given back, by size
-  std::size_t grown = 0;              // of the file that is mapped
-  std::atomic<std::size_t> bytes{0};  // in arrays
+  std::size_t grown = 0;                               // of the file that is mapped
+  std::atomic<std::size_t> bytes{0};                   // in arrays
 };
 
 // Never destroyed: arrays may outlive it otherwise.

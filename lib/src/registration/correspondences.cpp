@@ -5,7 +5,7 @@
 namespace tcm_icp {
 
 Correspondences find_correspondences(const Cloud& source, const Eigen::Isometry3d& T_target_source,
-                                                 const PyramidLevel& target, const CorrespondenceGate& gate) {
+                                     const PyramidLevel& target, const CorrespondenceGate& gate) {
   const double max_squared = gate.max_distance_m * gate.max_distance_m;
   const double min_cosine = std::cos(gate.max_normal_angle_rad);
   Correspondences out;

@@ -110,9 +110,8 @@ Termination lp_point_to_plane_step(const Correspondences& matches, const L1FitOp
   return simplex_step(plane_rows(matches), options, T_target_source, figures, step_m);
 }
 
-Termination registration_step(LpFormulation formulation, const Correspondences& matches,
-                              const L1FitOptions& options, Eigen::Isometry3d& T_target_source, LpFigures& figures,
-                              double& step_m) {
+Termination registration_step(LpFormulation formulation, const Correspondences& matches, const L1FitOptions& options,
+                              Eigen::Isometry3d& T_target_source, LpFigures& figures, double& step_m) {
   switch (formulation) {
     case LpFormulation::kPointToPlane:
       return lp_point_to_plane_step(matches, options, T_target_source, figures, step_m);

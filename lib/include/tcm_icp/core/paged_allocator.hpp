@@ -16,7 +16,7 @@ void free_array(void* array, std::size_t num_bytes) noexcept;
 /// otherwise. Any two are equal: containers can be moved, swapped and freed anywhere.
 template <typename T>
 struct PagedAllocator {
-  using value_type = T;                   ///< what the container holds
+  using value_type = T;                    ///< what the container holds
   using is_always_equal = std::true_type;  ///< it has no state
 
   PagedAllocator() = default;
@@ -27,7 +27,8 @@ struct PagedAllocator {
   /// Room for `count` values. @throws std::bad_alloc
   T* allocate(std::size_t count) {
     static_assert(alignof(T) <= alignof(std::max_align_t));
-    if (count > static_cast<std::size_t>(-1) / sizeof(T)) return static_cast<T*>(allocate_array(static_cast<std::size_t>(-1)));
+    if (count > static_cast<std::size_t>(-1) / sizeof(T))
+      return static_cast<T*>(allocate_array(static_cast<std::size_t>(-1)));
     return static_cast<T*>(allocate_array(count * sizeof(T)));
   }
   /// Gives it back.

@@ -28,6 +28,6 @@ struct CorrespondenceGate {
 /// Nearest neighbours of the moved source points that pass the gate; in the order of the source. The plane's normal is
 /// the target's; the source's where the target has none. O(N log M).
 Correspondences find_correspondences(const Cloud& source, const Eigen::Isometry3d& T_target_source,
-                                                 const PyramidLevel& target, const CorrespondenceGate& gate);
+                                     const PyramidLevel& target, const CorrespondenceGate& gate);
 
 }  // namespace tcm_icp
