@@ -4,7 +4,10 @@
 #include <boost/program_options/errors.hpp>
 #include <boost/program_options/positional_options.hpp>
 #include <boost/program_options/value_semantic.hpp>
+#include <cctype>
+#include <charconv>
 #include <string>
+#include <string_view>
 #include <thread>
 
 #include "option_binding.hpp"
@@ -55,6 +58,27 @@ void add_run_options(RunOptions& run, po::options_description& to) {
 int num_threads(int asked) {
   if (asked < 0) throw InvalidOptions("--threads must be at least 0, not " + std::to_string(asked));
   return asked > 0 ? asked : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
+
+std::optional<std::size_t> memory_bytes(const std::string& text) {
+  if (text == "auto") return std::nullopt;
+  if (text == "none") return 0;
+  constexpr std::string_view kUnits = "MGT";
+  constexpr double kLeast_mb = 64, kMost_mb = 1024.0 * 1024 * 1024;
+  double megabytes = 0;
+  const char* const end = text.data() + text.size();
+  const auto [rest, error] = std::from_chars(text.data(), end, megabytes, std::chars_format::fixed);
+  const std::size_t power = error == std::errc() && end - rest == 1
+                                ? kUnits.find(static_cast<char>(std::toupper(static_cast<unsigned char>(*rest))))
+                                : std::string_view::npos;
+  if (power == std::string_view::npos) {
+    throw InvalidOptions("--memory '" + text + "': give a size as 4G or 500M (units M, G, T), auto or none");
+  }
+  for (std::size_t i = 0; i < power; ++i) megabytes *= 1024;
+  if (!(megabytes >= kLeast_mb && megabytes <= kMost_mb)) {
+    throw InvalidOptions("--memory " + text + " is not between 64M and 1024T: no run gets by with less than 64M");
+  }
+  return static_cast<std::size_t>(megabytes * 1024 * 1024);
 }
 
 }  // namespace tcm_icp::app

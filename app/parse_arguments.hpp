@@ -4,6 +4,8 @@
 #include <boost/program_options/options_description.hpp>
 #include <boost/program_options/parsers.hpp>
 #include <boost/program_options/variables_map.hpp>
+#include <cstddef>
+#include <optional>
 #include <string>
 
 #include "command.hpp"
@@ -39,6 +41,13 @@ void add_run_options(RunOptions& run, boost::program_options::options_descriptio
 /// Threads to use, at least 1. @throws InvalidOptions  where less than 0 is asked for
 int num_threads(int asked);
 
+/// Bytes that "4G", "500M" or "1.5g" stand for, by powers of 1024; 0, no limit, for "none"; nothing for "auto".
+/// @throws InvalidOptions  for other text, and for less than 64M, which no run gets by with
+std::optional<std::size_t> memory_bytes(const std::string& text);
+
+inline constexpr const char* kMemoryHelp =
+    "memory to stay below where it can be, as 4G or 500M: what is not needed at once goes to a file in the folder of "
+    "TMPDIR, or /var/tmp; auto: half of the machine's, and 2G at most; none: no limit; the result is the same for any";
 inline constexpr const char* kThreadsHelp = "threads; 0: all of the machine; the result is the same for any number";
 inline constexpr const char* kQuietHelp = "errors and warnings only, beside results that go to standard output";
 inline constexpr const char* kVerboseHelp = "say more of what happens";

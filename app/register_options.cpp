@@ -199,7 +199,8 @@ void add_comparison_options(ScanSetOptions& o, Choices& c, po::options_descripti
       "unit", po::value(&o.units), kUnitHelp)(
       "graph-threshold", value(o.pipeline.graph_threshold),
       "correspondence measure below which two scans are connected, at initial poses; 0: from the data")(
-      "seed", value(o.seed), "seed of all random numbers")("threads", value(o.threads), kThreadsHelp);
+      "seed", value(o.seed), "seed of all random numbers")("threads", value(o.threads), kThreadsHelp)(
+      "memory", value(o.memory), kMemoryHelp);
 }
 
 po::options_description outlier_options(PipelineOptions& p, Choices& c) {
@@ -414,6 +415,7 @@ po::options_description inspect_description(InspectOptions& o, Choices& c) {
 void finish(ScanSetOptions& o, const Choices& choices) {
   choices.apply(o.pipeline);
   num_threads(o.threads);
+  memory_bytes(o.memory);
   o.pipeline.validate();
 }
 
@@ -539,7 +541,7 @@ void print_step_help(std::string_view command, std::ostream& out) {
   Choices choices(o.pipeline);
   const po::options_description file_options = configurable(o, choices);
   po::options_description of_registration("Of the registration, among others");
-  for (const char* name : {"bin", "unit", "seed", "threads"}) {
+  for (const char* name : {"bin", "unit", "seed", "threads", "memory"}) {
     of_registration.add(boost::make_shared<po::option_description>(file_options.find(name, false)));
   }
   std::string config;

@@ -24,7 +24,8 @@ struct ScanSetOptions {
   std::string bin;                 ///< what .bin files are
   std::vector<std::string> units;  ///< of coordinates: UNIT, or SCAN=UNIT
   std::uint64_t seed = 42;
-  int threads = 0;  ///< 0: as many as the machine has
+  int threads = 0;              ///< 0: as many as the machine has
+  std::string memory = "auto";  ///< to stay below: "4G"
   bool quiet = false;
   bool verbose = false;
   bool help = false;

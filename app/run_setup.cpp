@@ -9,6 +9,7 @@
 #include "parse_arguments.hpp"
 #include "suggestion.hpp"
 #include "tcm_icp/core/error.hpp"
+#include "tcm_icp/core/memory_limit.hpp"
 #include "tcm_icp/io/pose_io.hpp"
 #include "tcm_icp/io/scan_path.hpp"
 #include "tcm_icp/io/scan_reader.hpp"
@@ -112,6 +113,7 @@ RunContext run_context(const ScanSetOptions& options, Console& console) {
   RunContext context;
   context.seed = options.seed;
   context.num_threads = num_threads(options.threads);
+  context.memory_limit = memory_bytes(options.memory).value_or(default_memory_limit());
   context.on_progress = [&console](const Progress& p) { return console.progress(p); };
   context.log = [&console](LogLevel level, std::string_view message) { console.log(level, message); };
   return context;

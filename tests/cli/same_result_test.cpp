@@ -41,6 +41,13 @@ TEST_F(SameResult, ForOneThreadAndTwoAndFromRunToRun) {
   }
 }
 
+// With the least memory that may be asked for, what is prepared of scans lies in a file and leaves memory all the time.
+TEST_F(SameResult, ForAnyLimitOfTheMemory) {
+  EXPECT_EQ(run_to("none", town() + Words{"--memory", "none"}), 0);
+  EXPECT_EQ(run_to("least", town() + Words{"--memory", "64M"}), 0);
+  expect_same_files("none", "least");
+}
+
 TEST_F(SameResult, ForAnyOrderOfTheFiles) {
   const Words guess{"--init", town_file("initial_poses.json").string()};
   EXPECT_EQ(run_to("forwards", town_scans() + guess), 0);

@@ -82,6 +82,9 @@ TEST_F(Usage, EveryCommandRunsAlike) {
   expect_refusal(Words{"degrade", "a.xyz", "--noise", "0.1"} + none + to, 1, {"--threads", "-1"});
   expect_refusal(Words{"simulate"} + none + to, 1, {"--threads", "-1"});
   expect_refusal(Words{"evaluate", "--scans", ".", "--poses", "p", "--truth", "t"} + none, 1, {"--threads", "-1"});
+  for (const char* size : {"many", "4", "4 G", "4GB", "1M", "nanG", "1e9T"}) {
+    expect_bad({"--memory", size}, {"--memory", size});
+  }
   for (const char* command : {"register", "degrade", "simulate"}) {
     EXPECT_NE(run({command, "--help"}).out.find("--force"), std::string::npos) << command;
   }

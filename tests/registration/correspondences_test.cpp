@@ -19,9 +19,8 @@ using Eigen::Vector3d;
 PyramidLevel level_of(const Cloud& cloud) { return {0.1, cloud, NeighborIndex(cloud.points)}; }
 
 // By loop over all pairs.
-std::vector<Correspondence> slowly(const Cloud& source, const Isometry3d& T, const Cloud& target,
-                                   const CorrespondenceGate& gate) {
-  std::vector<Correspondence> out;
+Correspondences slowly(const Cloud& source, const Isometry3d& T, const Cloud& target, const CorrespondenceGate& gate) {
+  Correspondences out;
   for (std::size_t i = 0; i < source.size(); ++i) {
     const Vector3d p = T * source.points[i];
     std::size_t best = 0;

@@ -18,8 +18,8 @@ using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
 // Points on random planes, displaced by `twist`, with noise.
-std::vector<Correspondence> make_matches(std::size_t count, const Twist& twist, double noise_m, Rng& rng) {
-  std::vector<Correspondence> matches;
+Correspondences make_matches(std::size_t count, const Twist& twist, double noise_m, Rng& rng) {
+  Correspondences matches;
   const Isometry3d T = isometry_from_twist(twist);
   for (const auto& p : testing::random_points(count, 10, rng)) {
     const Vector3d normal = testing::random_pose(0, rng).linear().col(0);
@@ -28,14 +28,14 @@ std::vector<Correspondence> make_matches(std::size_t count, const Twist& twist, 
   return matches;
 }
 
-Vector3d centre_of(const std::vector<Correspondence>& matches) {
+Vector3d centre_of(const Correspondences& matches) {
   Vector3d sum = Vector3d::Zero();
   for (const auto& m : matches) sum += m.source;
   return sum / static_cast<double>(matches.size());
 }
 
 // What the step minimises, term by term.
-double l1_cost(const std::vector<Correspondence>& matches, const Twist& twist) {
+double l1_cost(const Correspondences& matches, const Twist& twist) {
   const Vector3d centre = centre_of(matches);
   double sum = 0;
   for (const auto& m : matches) {
@@ -121,7 +121,7 @@ TEST(LpPointToPlaneStep, MatchesInOnePlaceOrNoneAreTooFew) {
   const Isometry3d start = isometry_from_twist(small_twist());
   for (const std::size_t count : {0u, 1u, 20u}) {
     Isometry3d T = start;
-    const std::vector<Correspondence> matches(count, {{1, 2, 3}, {1, 2, 4}, {0, 0, 1}});
+    const Correspondences matches(count, {{1, 2, 3}, {1, 2, 4}, {0, 0, 1}});
     EXPECT_EQ(lp_point_to_plane_step(matches, {}, T, figures, step_m), Termination::kTooFewCorrespondences);
     EXPECT_TRUE(T.isApprox(start, 0));
   }
@@ -170,7 +170,7 @@ TEST(RegistrationStep, GrossErrorsMoveLeastSquaresAndNotTheProgram) {
 }
 
 TEST(RegistrationStep, MatchesInOnePlaceAreTooFewForEveryFormulation) {
-  const std::vector<Correspondence> matches(3, {{1, 2, 3}, {1, 2, 4}, {0, 0, 1}});
+  const Correspondences matches(3, {{1, 2, 3}, {1, 2, 4}, {0, 0, 1}});
   for (const LpFormulation formulation : kFormulations) {
     LpFigures figures;
     Isometry3d T = Isometry3d::Identity();

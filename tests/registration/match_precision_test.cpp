@@ -136,7 +136,7 @@ TEST(SetPrecisions, DoNotDependOnTheRoundingOfAgreements) {
 TEST(SetPrecisions, AreFiniteWhereThereIsNothingOrNoErrorToGoBy) {
   std::vector<JointLink> none;
   set_precisions(none);
-  std::vector<JointLink> exact{{0, 1, std::vector<Correspondence>(900)}};
+  std::vector<JointLink> exact{{0, 1, Correspondences(900)}};
   for (std::size_t k = 0; k < 900; ++k) {
     Correspondence& match = exact[0].matches[k];
     match.source = match.target = Eigen::Vector3d(static_cast<double>(k), 0, 0);

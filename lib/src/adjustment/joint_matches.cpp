@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "core/memory_budget.hpp"
 #include "tcm_icp/core/parallel.hpp"
 #include "tcm_icp/registration/match_precision.hpp"
 #include "tcm_icp/visibility/sight.hpp"
@@ -33,7 +34,7 @@ Cloud part_of(const Cloud& cloud, std::size_t which, std::size_t num_parts) {
 // A thin wall's other face is near, and its normal an axis of the same direction. A few such matches are chance, and
 // dropping them would bend the pose.
 void drop_opposed(const Sight& target, const Sight& source, const Eigen::Isometry3d& T_target_source,
-                  std::vector<Correspondence>& matches) {
+                  Correspondences& matches) {
   if (!target.knows_sides() || !source.knows_sides()) return;
   const Eigen::Isometry3d T_source_target = T_target_source.inverse();
   std::vector<int> agreement;  // 1: the same side, -1: opposite ones, 0: not known
@@ -77,6 +78,7 @@ std::vector<JointLink> match_pairs(const std::vector<PreparedScan>& scans, const
         m.target = T * m.target;
         m.normal = T.linear() * m.normal;
       }
+      link.matches = in_budget(std::move(link.matches));
     }
   });
   set_precisions(links);

@@ -87,21 +87,20 @@ struct AllWithin {
 }  // namespace
 
 struct NeighborIndex::Impl {
-  explicit Impl(std::span<const Eigen::Vector3d> input)
-      : size(input.size()),
-        points(copy(input)),
-        tree(boost::counting_iterator<std::uint32_t>(0),
-             boost::counting_iterator<std::uint32_t>(static_cast<std::uint32_t>(size)), Splitter(kBucketSize),
-             Traits(PointOfIndex{points.data()})) {
+  explicit Impl(std::span<const Eigen::Vector3d> input) : size(input.size()) {
     if (size == 0) return;
-    tree.build();  // or the first query would, and no longer be const
-    // The tree has the coordinates in its own order now, and queries look nowhere else.
-    points = {};
+    const std::vector<Point> points = copy(input);
+    Tree built(boost::counting_iterator<std::uint32_t>(0),
+               boost::counting_iterator<std::uint32_t>(static_cast<std::uint32_t>(size)), Splitter(kBucketSize),
+               Traits(PointOfIndex{points.data()}));
+    built.build();  // or the first query would, and no longer be const
+    tree = FlatTree(built);
   }
 
   static std::vector<Point> copy(std::span<const Eigen::Vector3d> input) {
-    if (input.size() >= std::numeric_limits<std::uint32_t>::max()) {
-      throw InvalidInput("a neighbour index holds at most 2^32 - 2 points, not " + std::to_string(input.size()));
+    constexpr std::size_t kMost = 4'000'000'000;  // what 32 bits count, with room for marks
+    if (input.size() > kMost) {
+      throw InvalidInput("a neighbour index holds at most 4,000,000,000 points, not " + std::to_string(input.size()));
     }
     std::vector<Point> out;
     out.reserve(input.size());
@@ -119,11 +118,11 @@ struct NeighborIndex::Impl {
   }
 
   std::size_t size;
-  std::vector<Point> points;  // while the tree is built
-  Tree tree;
+  FlatTree tree;
 };
 
 NeighborIndex::NeighborIndex(std::span<const Eigen::Vector3d> points) : impl_(std::make_unique<Impl>(points)) {}
+NeighborIndex::NeighborIndex(const NeighborIndex& other) : impl_(std::make_unique<Impl>(*other.impl_)) {}
 NeighborIndex::~NeighborIndex() = default;
 NeighborIndex::NeighborIndex(NeighborIndex&&) noexcept = default;
 NeighborIndex& NeighborIndex::operator=(NeighborIndex&&) noexcept = default;

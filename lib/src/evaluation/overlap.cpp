@@ -30,7 +30,7 @@ Eigen::MatrixXd overlap_matrix(const std::vector<Points>& clouds, int num_thread
       const std::size_t i = cell / n, j = cell % n;
       if (clouds[i].empty() || !reaches[i].intersects(reaches[j])) continue;
       const auto near = std::count_if(clouds[i].begin(), clouds[i].end(), [&](const Eigen::Vector3d& p) {
-        return reaches[j].contains(p) && indices[j].nearest_within(p, radii_m[j]).found();
+        return reaches[j].contains(p) && indices[j].any_within(p, radii_m[j]);
       });
       overlap(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
           static_cast<double>(near) / static_cast<double>(clouds[i].size());

@@ -5,6 +5,8 @@
 #include <map>
 #include <set>
 
+#include "tcm_icp/core/parallel.hpp"
+
 namespace tcm_icp {
 namespace {
 
@@ -38,7 +40,7 @@ class Flows {
   std::vector<bool> side_of(std::size_t from, std::size_t to) const {
     std::vector<double> flow(edges_.size(), 0);  // from a to b
     while (true) {
-      const std::vector<std::size_t> way = shortest_ways(flow, from);
+      const std::vector<std::size_t> way = shortest_ways(flow, from, to);
       if (way[to] == kNone) {
         std::vector<bool> side(of_scan_.size(), false);
         for (std::size_t i = 0; i < side.size(); ++i) side[i] = i == from || way[i] != kNone;
@@ -61,8 +63,8 @@ class Flows {
   }
   std::size_t other_end(std::size_t k, std::size_t i) const { return edges_[k].a == i ? edges_[k].b : edges_[k].a; }
 
-  // The edge by which each scan is reached first.
-  std::vector<std::size_t> shortest_ways(const std::vector<double>& flow, std::size_t from) const {
+  // The edge by which each scan is reached first; those of scans farther than `to` are of no use where that is reached.
+  std::vector<std::size_t> shortest_ways(const std::vector<double>& flow, std::size_t from, std::size_t to) const {
     std::vector<std::size_t> way(of_scan_.size(), kNone), open{from};
     for (std::size_t next = 0; next < open.size(); ++next) {
       const std::size_t i = open[next];
@@ -70,6 +72,7 @@ class Flows {
         const std::size_t j = other_end(k, i);
         if (j == from || way[j] != kNone || left(flow, k, i) <= kLeastLeft) continue;
         way[j] = k;
+        if (j == to) return way;
         open.push_back(j);
       }
     }
@@ -117,44 +120,55 @@ std::vector<std::vector<std::size_t>> minimum_cuts(const std::vector<Edge>& edge
 
 namespace {
 
-// A pair across a cut. Where its scans put each other's middles tells at little cost which motions it agrees with.
 struct PairAcross {
   const ComparedPair* pair;
   bool moves_b;
-  Eigen::Vector3d middle_b;              ///< in the reference's frame, at the poses as they are
-  std::vector<Eigen::Vector3d> middles;  ///< of b by hypothesis, in the reference's frame with a at its pose
-
-  bool may_agree(const PairGraph& graph, const Eigen::Isometry3d& motion, const Eigen::Isometry3d& back) const {
-    const Eigen::Vector3d middle = (moves_b ? motion : back) * middle_b;
-    return std::any_of(middles.begin(), middles.end(), [&](const auto& m) { return graph.same_mean(m, middle); });
-  }
 };
 
-std::vector<PairAcross> pairs_across(const PairGraph& graph, const Component& component,
+// Where a hypothesis of a pair across a cut puts the middle of b tells at little cost which motions it agrees with. Of
+// all pairs in one row: a cut of a large set has hundreds of them, and each hypothesis is a motion to ask all about.
+struct MiddleAcross {
+  Eigen::Vector3d middle_b;  ///< in the reference's frame, at the poses as they are
+  Eigen::Vector3d supposed;  ///< by the hypothesis, with a at its pose
+  std::size_t pair;          ///< its place in the row of pairs
+};
+
+struct PairsAcross {
+  std::vector<PairAcross> pairs;
+  std::vector<MiddleAcross> middles;  ///< in the order of the pairs
+};
+
+PairsAcross pairs_across(const PairGraph& graph, const Component& component,
                                      const std::vector<std::size_t>& moved) {
   std::vector<bool> is_moved(graph.num_scans(), false);
   for (const std::size_t i : moved) is_moved[i] = true;
-  std::vector<PairAcross> across;
+  PairsAcross across;
   for (const std::size_t i : moved) {
     for (const std::size_t k : graph.pairs_of(i)) {
       const ComparedPair& pair = graph.pairs()[k];
       const std::size_t other = pair.a == i ? pair.b : pair.a;
       if (!component.has(other) || is_moved[other]) continue;
       const Eigen::Isometry3d &T_a = *component.T_reference_scan[pair.a], &T_b = *component.T_reference_scan[pair.b];
-      PairAcross p{&pair, pair.b == i, T_b * graph.mean_of(pair.b), {}};
-      for (const PoseHypothesis& h : pair.hypotheses) p.middles.push_back(T_a * h.mean);
-      across.push_back(std::move(p));
+      const Eigen::Vector3d middle_b = T_b * graph.mean_of(pair.b);
+      for (const PoseHypothesis& h : pair.hypotheses) {
+        across.middles.push_back({middle_b, T_a * h.mean, across.pairs.size()});
+      }
+      across.pairs.push_back({&pair, pair.b == i});
     }
   }
   return across;
 }
 
-double support_across(const PairGraph& graph, const Component& component, const std::vector<PairAcross>& across,
+double support_across(const PairGraph& graph, const Component& component, const PairsAcross& across,
                       const Eigen::Isometry3d& motion) {
   const Eigen::Isometry3d back = motion.inverse();
   double sum = -graph.options().log_poses;
-  for (const PairAcross& p : across) {
-    if (!p.may_agree(graph, motion, back)) continue;
+  std::size_t next = 0;  // the first pair that was not asked yet
+  for (const MiddleAcross& m : across.middles) {
+    if (m.pair < next) continue;
+    const PairAcross& p = across.pairs[m.pair];
+    if (!graph.same_mean(m.supposed, (p.moves_b ? motion : back) * m.middle_b)) continue;
+    next = m.pair + 1;
     const Eigen::Isometry3d &T_a = *component.T_reference_scan[p.pair->a],
                             &T_b = *component.T_reference_scan[p.pair->b];
     sum += p.moves_b ? graph.support(*p.pair, T_a, motion * T_b) : graph.support(*p.pair, motion * T_a, T_b);
@@ -166,9 +180,9 @@ double support_across(const PairGraph& graph, const Component& component, const 
 
 Cut measure_cut(const PairGraph& graph, const Component& component, std::vector<std::size_t> moved) {
   Cut cut{std::move(moved), 0, 0, std::nullopt};
-  const std::vector<PairAcross> across = pairs_across(graph, component, cut.moved);
+  const PairsAcross across = pairs_across(graph, component, cut.moved);
   cut.support = support_across(graph, component, across, Eigen::Isometry3d::Identity());
-  for (const PairAcross& p : across) {
+  for (const PairAcross& p : across.pairs) {
     const std::size_t scan = p.moves_b ? p.pair->b : p.pair->a, fixed = p.moves_b ? p.pair->a : p.pair->b;
     const Eigen::Isometry3d &T_scan = *component.T_reference_scan[scan], &T_fixed = *component.T_reference_scan[fixed];
     for (const PoseHypothesis& h : p.pair->hypotheses) {
@@ -190,7 +204,7 @@ double measure_support(const PairGraph& graph, const Component& component, const
 
 double most_elsewhere(const PairGraph& graph, const Component& component, const std::vector<std::size_t>& moved) {
   double sum = -graph.options().log_poses;
-  for (const PairAcross& p : pairs_across(graph, component, moved)) {
+  for (const PairAcross& p : pairs_across(graph, component, moved).pairs) {
     double most = 0;
     for (const PoseHypothesis& h : p.pair->hypotheses) {
       const Eigen::Isometry3d &T_a = *component.T_reference_scan[p.pair->a],
@@ -257,14 +271,17 @@ std::vector<std::vector<std::size_t>> weakest_parts(const PairGraph& graph, cons
   return {parts.begin(), parts.end()};
 }
 
-std::vector<Cut> weakest_cuts(const PairGraph& graph, const Component& component) {
+std::vector<Cut> weakest_cuts(const PairGraph& graph, const Component& component, int num_threads) {
   std::set<std::vector<std::size_t>> parts;
   for (auto& part : weakest_parts(graph, component)) parts.insert(std::move(part));
   for (const std::size_t i : component.members()) {
     if (i != component.reference) parts.insert({i});
   }
-  std::vector<Cut> cuts;
-  for (const auto& part : parts) cuts.push_back(measure_cut(graph, component, part));
+  const std::vector<std::vector<std::size_t>> row(parts.begin(), parts.end());
+  std::vector<Cut> cuts(row.size());
+  parallel_for(num_threads, row.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) cuts[k] = measure_cut(graph, component, row[k]);
+  });
   return cuts;
 }
 

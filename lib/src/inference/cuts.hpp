@@ -40,8 +40,8 @@ double most_elsewhere(const PairGraph& graph, const Component& component, const 
 std::vector<std::vector<std::size_t>> weakest_parts(const PairGraph& graph, const Component& component);
 
 /// The cuts of those parts and of every member by itself, each once. Cost: a flow for each member, and for each cut the
-/// pairs across times the poses they lead to.
-std::vector<Cut> weakest_cuts(const PairGraph& graph, const Component& component);
+/// pairs across times the poses they lead to; the same for any number of threads.
+std::vector<Cut> weakest_cuts(const PairGraph& graph, const Component& component, int num_threads = 1);
 
 /// Those of the moved that pairs across the cut hold where they are: there, more may be found out. All of them where
 /// none does.

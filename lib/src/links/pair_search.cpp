@@ -8,6 +8,7 @@
 #include <set>
 
 #include "core/acceptance.hpp"
+#include "core/memory_budget.hpp"
 #include "links/link_fit.hpp"
 #include "links/pair_steps.hpp"
 #include "tcm_icp/coarse/feature_alignment.hpp"
@@ -212,7 +213,7 @@ struct PairSearch::Impl {
     parallel_for(context.num_threads, scans.size(), [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
         Rng rng = make_stream(context.seed, "features", scans[i].key);
-        described[i] = describe_scan(scans[i].pyramid, features, rng);
+        described[i] = in_budget(describe_scan(scans[i].pyramid, features, rng));
       }
     });
   }

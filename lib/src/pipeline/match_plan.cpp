@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "core/memory_budget.hpp"
 #include "links/pair_search.hpp"
 #include "links/pair_steps.hpp"
 #include "pipeline/kept_set.hpp"
@@ -95,6 +96,7 @@ MatchPlan plan_matches(const StepStore& steps, std::span<const ScanInput> inputs
   check_profile(options);
   if (inputs.size() < 2) throw InvalidOptions("pairs need at least two scans; name the files of all scans");
   check_inputs(inputs, InitialPoses(inputs.size()));
+  const MemoryBudget budget(context);
   std::vector<SampledScan> sampled = read_scans(inputs, options, context, ScanDetail::kLinePieces, &steps);
   refuse_twins(sampled);
   const bool as_listed = options.merge_order == MergeOrder::kFile;

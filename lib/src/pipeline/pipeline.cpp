@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 
+#include "core/memory_budget.hpp"
 #include "pipeline/pipeline_input.hpp"
 #include "pipeline/scan_checks.hpp"
 #include "pipeline/scan_order.hpp"
@@ -48,6 +49,7 @@ PipelineResult Pipeline::run(std::span<const ScanInput> inputs, const InitialPos
   check_survey(inputs, initial_poses, survey, paper);
   const PipelineOptions& options = options_;
   PipelineResult result;
+  const MemoryBudget budget(context);
   StageClock clock(result.stages);
   clock.begin("read and sample");
   std::vector<SampledScan> sampled =
@@ -69,6 +71,10 @@ PipelineResult Pipeline::run(std::span<const ScanInput> inputs, const InitialPos
       {sampled, files, guesses, survey, options, context, clock, steps_.get()}, result);
   clock.end();
   restore_order(order, result);
+  if (const std::string said = budget.shortfall(); !said.empty()) {
+    context.warn(said);
+    result.warnings.push_back(said);
+  }
   for (std::size_t i = 0; i < inputs.size(); ++i) result.poses[i].unit = result.scans[i].unit;
   return result;
 }

@@ -120,7 +120,9 @@ class RobustPipeline {
       std::vector<Component> components = likeliest_components(graph);
       if (round == kMaxLearnt || !hypotheses_->learn_constant(graph, components)) {
         std::vector<std::vector<Cut>> cuts;
-        for (const Component& component : components) cuts.push_back(weakest_cuts(graph, component));
+        for (const Component& component : components) {
+          cuts.push_back(weakest_cuts(graph, component, in_.context.num_threads));
+        }
         return {std::move(graph), std::move(components), std::move(cuts)};
       }
       hypotheses_->score();

@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "core/memory_budget.hpp"
 #include "scans/scan_steps.hpp"
 #include "tcm_icp/core/error.hpp"
 #include "tcm_icp/core/parallel.hpp"
@@ -140,10 +141,10 @@ std::vector<SampledScan> read_scans(std::span<const ScanInput> inputs, const Pip
     const std::size_t count = std::min(batch, inputs.size() - first);
     parallel_for(context.num_threads, count, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = first + begin; i < first + end; ++i) {
-        scans[i] =
+        scans[i] = in_budget(
             steps != nullptr
                 ? sample_scan_once(*steps, inputs[i], options.sampling, options.outliers, context.seed, 1, detail)
-                : sample_scan(inputs[i], options.sampling, options.outliers, context.seed, 1, detail);
+                : sample_scan(inputs[i], options.sampling, options.outliers, context.seed, 1, detail));
         scans[i].scan.file = names[i];
       }
     });
@@ -163,7 +164,7 @@ std::vector<PreparedScan> prepare_scans(std::vector<SampledScan>& scans, const R
   std::vector<std::optional<PreparedScan>> prepared(scans.size());
   parallel_for(context.num_threads, scans.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      prepared[i] = prepare_scan(scans[i], resolutions, options, context.seed);
+      prepared[i] = in_budget(prepare_scan(scans[i], resolutions, options, context.seed));
       scans[i].scan.cloud = Cloud();
       scans[i].surface_normals = Points();
       if (scans[i].digest.empty()) continue;

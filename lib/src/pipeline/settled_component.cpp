@@ -130,7 +130,7 @@ class Settling {
     parallel_for(context_.num_threads, members.size(), [&](std::size_t begin, std::size_t end) {
       for (std::size_t k = begin; k < end; ++k) measured[k] = measure_scan(members[k], T);
     });
-    cuts_ = weakest_cuts(graph_, out_.component);
+    cuts_ = weakest_cuts(graph_, out_.component, context_.num_threads);
     if (members.size() > 1) cuts_.push_back(measure_cut(graph_, out_.component, {out_.component.reference}));
     for (std::size_t k = 0; k < members.size(); ++k) {
       out_.measurements[members[k]] = measured[k];

@@ -4,11 +4,11 @@
 
 namespace tcm_icp {
 
-std::vector<Correspondence> find_correspondences(const Cloud& source, const Eigen::Isometry3d& T_target_source,
-                                                 const PyramidLevel& target, const CorrespondenceGate& gate) {
+Correspondences find_correspondences(const Cloud& source, const Eigen::Isometry3d& T_target_source,
+                                     const PyramidLevel& target, const CorrespondenceGate& gate) {
   const double max_squared = gate.max_distance_m * gate.max_distance_m;
   const double min_cosine = std::cos(gate.max_normal_angle_rad);
-  std::vector<Correspondence> out;
+  Correspondences out;
   out.reserve(source.size());
   for (std::size_t i = 0; i < source.size(); ++i) {
     const Eigen::Vector3d p = T_target_source * source.points[i];

@@ -14,7 +14,7 @@ namespace {
 
 double radians(double degrees) { return degrees * std::numbers::pi / 180; }
 
-double median_plane_distance(const std::vector<Correspondence>& matches) {
+double median_plane_distance(const Correspondences& matches) {
   std::vector<double> values;
   values.reserve(matches.size());
   for (const auto& m : matches) values.push_back(std::abs(m.normal.dot(m.source - m.target)));

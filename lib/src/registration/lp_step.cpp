@@ -17,7 +17,7 @@ struct TwistRows {
   Eigen::VectorXd d;
 };
 
-TwistRows empty_rows(const std::vector<Correspondence>& matches) {
+TwistRows empty_rows(const Correspondences& matches) {
   TwistRows rows;
   for (const auto& m : matches) rows.centre += m.source;
   rows.centre /= static_cast<double>(matches.size());
@@ -35,7 +35,7 @@ void set_row(TwistRows& rows, Eigen::Index i, const Correspondence& m, const Eig
   rows.d[i] = -direction.dot(m.source - m.target);
 }
 
-TwistRows plane_rows(const std::vector<Correspondence>& matches) {
+TwistRows plane_rows(const Correspondences& matches) {
   TwistRows rows = empty_rows(matches);
   const auto n = static_cast<Eigen::Index>(matches.size());
   rows.A.resize(n, 6);
@@ -47,7 +47,7 @@ TwistRows plane_rows(const std::vector<Correspondence>& matches) {
   return rows;
 }
 
-TwistRows point_rows(const std::vector<Correspondence>& matches) {
+TwistRows point_rows(const Correspondences& matches) {
   TwistRows rows = empty_rows(matches);
   const auto n = static_cast<Eigen::Index>(matches.size());
   rows.A.resize(3 * n, 6);
@@ -87,7 +87,7 @@ Termination least_squares_step(const TwistRows& rows, const L1FitOptions& option
   return Termination::kConverged;
 }
 
-Termination entries_step(const std::vector<Correspondence>& matches, const L1FitOptions& options,
+Termination entries_step(const Correspondences& matches, const L1FitOptions& options,
                          Eigen::Isometry3d& T_target_source, LpFigures& figures, double& step_m) {
   Points source, target;
   for (const auto& m : matches) {
@@ -105,14 +105,13 @@ Termination entries_step(const std::vector<Correspondence>& matches, const L1Fit
 
 }  // namespace
 
-Termination lp_point_to_plane_step(const std::vector<Correspondence>& matches, const L1FitOptions& options,
+Termination lp_point_to_plane_step(const Correspondences& matches, const L1FitOptions& options,
                                    Eigen::Isometry3d& T_target_source, LpFigures& figures, double& step_m) {
   return simplex_step(plane_rows(matches), options, T_target_source, figures, step_m);
 }
 
-Termination registration_step(LpFormulation formulation, const std::vector<Correspondence>& matches,
-                              const L1FitOptions& options, Eigen::Isometry3d& T_target_source, LpFigures& figures,
-                              double& step_m) {
+Termination registration_step(LpFormulation formulation, const Correspondences& matches, const L1FitOptions& options,
+                              Eigen::Isometry3d& T_target_source, LpFigures& figures, double& step_m) {
   switch (formulation) {
     case LpFormulation::kPointToPlane:
       return lp_point_to_plane_step(matches, options, T_target_source, figures, step_m);

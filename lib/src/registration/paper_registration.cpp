@@ -113,7 +113,7 @@ double mean(const std::vector<double>& values) {
 // A program in 6 unknowns for the matches, moved to where they were matched.
 Termination twist_step(const PaperMatchedPoints& matches, const L1FitOptions& options,
                        Eigen::Isometry3d& T_target_source, LpFigures& figures) {
-  std::vector<Correspondence> moved;
+  Correspondences moved;
   for (std::size_t i = 0; i < matches.source.size(); ++i) {
     moved.push_back({T_target_source * matches.source[i], matches.target[i], Eigen::Vector3d::Zero(), 1});
   }

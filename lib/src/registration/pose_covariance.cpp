@@ -20,15 +20,17 @@ namespace {
 double disagreement(const std::vector<JointLink>& links, double threshold_m, double block_m) {
   constexpr double kMedianOfChiSquare6 = 5.348;
   constexpr std::size_t kFewestBlocks = 12;
-  std::map<std::pair<std::size_t, std::size_t>, std::vector<JointLink>> pairs;
+  std::map<std::pair<std::size_t, std::size_t>, std::vector<const JointLink*>> pairs;
   std::map<std::size_t, int> scans;
   for (const auto& link : links) {
-    pairs[std::minmax(link.target, link.source)].push_back(link);
+    pairs[std::minmax(link.target, link.source)].push_back(&link);
     scans[link.target] = scans[link.source] = 1;
   }
   const double loops = static_cast<double>(pairs.size()) - static_cast<double>(scans.size()) + 1;
   std::vector<double> squares;
-  for (const auto& [pair, both] : pairs) {
+  for (const auto& [pair, of_pair] : pairs) {
+    std::vector<JointLink> both;  // copies of one pair at a time: all of a large set would be gigabytes
+    for (const JointLink* link : of_pair) both.push_back(*link);
     const LinkScores scores = link_scores(both, threshold_m, block_m);
     if (scores.blocks.size() < kFewestBlocks) continue;
     const auto count = static_cast<double>(scores.blocks.size());

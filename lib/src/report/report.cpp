@@ -129,7 +129,8 @@ Json options_json(const PipelineOptions& o, const RunContext& context) {
                {"descent_steps", o.refinement.descent_steps},
                {"annealing_steps", o.refinement.annealing_steps},
                {"seed", context.seed},
-               {"threads", context.num_threads}};
+               {"threads", context.num_threads},
+               {"memory_limit_mb", context.memory_limit >> 20}};
   if (o.profile == Profile::kPaper) options["paper"] = paper_options_json(o.paper);
   return options;
 }

@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "core/memory_budget.hpp"
 #include "scans/scan_steps.hpp"
 #include "tcm_icp/core/parallel.hpp"
 #include "tcm_icp/core/random.hpp"
@@ -34,7 +35,8 @@ void make_sights(const std::vector<std::optional<Viewpoint>>& viewpoints, const 
                  std::vector<PreparedScan>& scans) {
   parallel_for(context.num_threads, scans.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      scans[i].sight = make_sight(viewpoints[i], scans[i].fine.cloud.points, scans[i].pyramid.level(0).cloud);
+      scans[i].sight =
+          in_budget(make_sight(viewpoints[i], scans[i].fine.cloud.points, scans[i].pyramid.level(0).cloud));
     }
   });
 }

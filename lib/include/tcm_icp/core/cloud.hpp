@@ -5,10 +5,12 @@
 #include <cstddef>
 #include <vector>
 
+#include "tcm_icp/core/paged_allocator.hpp"
+
 namespace tcm_icp {
 
-/// Points or directions in one frame.
-using Points = std::vector<Eigen::Vector3d>;
+/// Points or directions in one frame: a vector, whose memory may lie in a file where a set of scans has no room.
+using Points = std::vector<Eigen::Vector3d, PagedAllocator<Eigen::Vector3d>>;
 
 /// Points in one frame [m]. `normals` is empty or as long as `points`; a zero normal marks a point whose surface
 /// direction could not be determined.

@@ -32,6 +32,7 @@ enum class LogLevel {
 struct RunContext {
   std::uint64_t seed = 42;                               ///< each stage draws from make_stream(seed, stage)
   int num_threads = 1;                                   ///< >= 1; changes speed, never the result
+  std::size_t memory_limit = 0;                          ///< [bytes] kept where it can be; 0: none; changes no result
   std::function<Continue(const Progress&)> on_progress;  ///< may be empty; called from one thread
   std::function<void(LogLevel, std::string_view)> log;   ///< may be empty
 

@@ -9,8 +9,8 @@
 namespace tcm_icp {
 
 /// (i, j): share of the points of clouds[i] that have a point of clouds[j] within 3 times the median point spacing of
-/// clouds[j]. All clouds in one frame; an empty one shares nothing. Cost O(k^2 N log N) for k clouds of N points, on
-/// `num_threads` threads, whose number does not change the result.
+/// clouds[j]. All clouds in one frame; an empty one shares nothing. Cost O(N log N) for each two
+/// clouds of N points whose boxes meet, on `num_threads` threads, whose number does not change the result.
 /// @throws InvalidInput  if a coordinate is not finite
 Eigen::MatrixXd overlap_matrix(const std::vector<Points>& clouds, int num_threads);
 

@@ -17,6 +17,9 @@ struct Correspondence {
   double precision = 1;    ///< what the residual is multiplied by before it is weighed; 1: as good as any other
 };
 
+/// Those of a pair; of all pairs of a large set they are what a joint adjustment needs most memory for.
+using Correspondences = std::vector<Correspondence, PagedAllocator<Correspondence>>;
+
 struct CorrespondenceGate {
   double max_distance_m = 0;          ///< [m] > 0; farther pairs are dropped
   double max_normal_angle_rad = 1.0;  ///< [rad] pairs whose normals differ more are dropped
@@ -24,7 +27,7 @@ struct CorrespondenceGate {
 
 /// Nearest neighbours of the moved source points that pass the gate; in the order of the source. The plane's normal is
 /// the target's; the source's where the target has none. O(N log M).
-std::vector<Correspondence> find_correspondences(const Cloud& source, const Eigen::Isometry3d& T_target_source,
-                                                 const PyramidLevel& target, const CorrespondenceGate& gate);
+Correspondences find_correspondences(const Cloud& source, const Eigen::Isometry3d& T_target_source,
+                                     const PyramidLevel& target, const CorrespondenceGate& gate);
 
 }  // namespace tcm_icp

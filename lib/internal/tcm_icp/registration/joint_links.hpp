@@ -12,7 +12,7 @@ namespace tcm_icp {
 /// Matches of points of scan `source` in scan `target`, points and normals moved into the frame common to all scans.
 struct JointLink {
   std::size_t target = 0, source = 0;
-  std::vector<Correspondence> matches;
+  Correspondences matches;
 };
 
 /// Distance [m] of the source point from the plane at the target point, with the normal's sign, times the match's

@@ -34,14 +34,13 @@ struct LpRegistrationOptions {
 /// One L1 point-to-plane step: the twist about `centre` that minimises sum |n . (p + w x (p - centre) + t - q)|, 6
 /// unknowns, solved exactly through its dual linear program. Rotations are scaled by the matches' RMS radius.
 /// @param iterations  what the step did is added to its LP figures
-Termination lp_point_to_plane_step(const std::vector<Correspondence>& matches, const L1FitOptions& options,
+Termination lp_point_to_plane_step(const Correspondences& matches, const L1FitOptions& options,
                                    Eigen::Isometry3d& T_target_source, LpFigures& figures, double& step_m);
 
 /// A step of any formulation, for comparison; kPointToPlane is the function above.
 /// @note The L1 norm of a vector depends on the axes: kPointToPoint and kEntries are not the same in a turned frame.
-Termination registration_step(LpFormulation formulation, const std::vector<Correspondence>& matches,
-                              const L1FitOptions& options, Eigen::Isometry3d& T_target_source, LpFigures& figures,
-                              double& step_m);
+Termination registration_step(LpFormulation formulation, const Correspondences& matches, const L1FitOptions& options,
+                              Eigen::Isometry3d& T_target_source, LpFigures& figures, double& step_m);
 
 /// Registers `source` to `target` from T_init: correspondences within a gate on distance and normal that shrinks from
 /// initial to final, an L1 step on each set, until steps are small at the final gate.

@@ -34,7 +34,7 @@ class RangeImage {
   };
 
   Eigen::Vector3d place_;
-  std::vector<Bin> bins_;
+  std::vector<Bin, PagedAllocator<Bin>> bins_;
 };
 
 }  // namespace tcm_icp
