@@ -138,8 +138,7 @@ struct PairsAcross {
   std::vector<MiddleAcross> middles;  ///< in the order of the pairs
 };
 
-PairsAcross pairs_across(const PairGraph& graph, const Component& component,
-                                     const std::vector<std::size_t>& moved) {
+PairsAcross pairs_across(const PairGraph& graph, const Component& component, const std::vector<std::size_t>& moved) {
   std::vector<bool> is_moved(graph.num_scans(), false);
   for (const std::size_t i : moved) is_moved[i] = true;
   PairsAcross across;
