@@ -177,7 +177,7 @@ TEST_F(HypothesisSetTest, TheGraphHasThePairsOfOpenScans) {
 class WithoutUnlikely : public HypothesisSetTest {
  protected:
   void compare(std::size_t a, std::size_t b, double off_m) { set_->add(a, b, {aside(a, b, off_m)}); }
-  Pairs kept() const {
+  Pairs kept() {
     set_->score();
     return set_->without_unlikely(all_, T_);
   }

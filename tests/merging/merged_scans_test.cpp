@@ -35,6 +35,10 @@ class MergedScansTest : public ::testing::Test {
     return cloud.level().cloud;
   }
 
+  std::vector<std::size_t> add(MergedScans& s, std::size_t scan) const {
+    return s.add(scan, *component_.T_reference_scan[scan]);
+  }
+
   Rng rng_ = make_stream(1, "merged_scans_test");
   const testing::PreparedScene s_ =
       testing::prepared_scene({.num_scans = 5, .points_per_scan = 3000, .range_m = 9, .noise_m = 0.02}, rng_);
@@ -48,13 +52,24 @@ TEST_F(MergedScansTest, ScansJoinWhatHypothesesTieThemTo) {
   const PairGraph graph = this->graph();
   MergedScans s(s_.scans, graph, component_);
   EXPECT_FALSE(s.has(0));
-  EXPECT_EQ(s.add(0), Scans{1}) << "whose part of S is another one";
+  EXPECT_EQ(add(s, 0), Scans{1}) << "whose part of S is another one";
   EXPECT_TRUE(s.has(0));
   EXPECT_TRUE(s.joins(1));
   EXPECT_FALSE(s.joins(2));
-  EXPECT_EQ(s.add(1), Scans{2});
+  EXPECT_EQ(add(s, 1), Scans{2});
   EXPECT_TRUE(s.joins(2));
-  EXPECT_TRUE(s.add(3).empty());
+  EXPECT_TRUE(add(s, 3).empty());
+}
+
+TEST_F(MergedScansTest, WhatIsLeftGoesAlongWithItsMergedNeighbour) {
+  join(0, 1);
+  const PairGraph graph = this->graph();
+  MergedScans s(s_.scans, graph, component_);
+  const Eigen::Isometry3d motion = Eigen::Translation3d(1, 2, 3) * Eigen::Isometry3d::Identity();
+  s.add(0, motion * *component_.T_reference_scan[0]);
+  EXPECT_TRUE(s.pose(0).isApprox(motion * *component_.T_reference_scan[0]));
+  EXPECT_TRUE(s.pose(1).isApprox(motion * *component_.T_reference_scan[1]));
+  EXPECT_TRUE(s.pose(2).isApprox(*component_.T_reference_scan[2])) << "nothing joins it";
 }
 
 TEST_F(MergedScansTest, NearAScanIsWhatItsMergedNeighboursShow) {
@@ -63,7 +78,7 @@ TEST_F(MergedScansTest, NearAScanIsWhatItsMergedNeighboursShow) {
   join(2, 3);
   const PairGraph graph = this->graph();
   MergedScans s(s_.scans, graph, component_);
-  for (const std::size_t i : {0u, 1u, 4u}) s.add(i);
+  for (const std::size_t i : {0u, 1u, 4u}) add(s, i);
   const PyramidLevel near = s.near(2, 0);
   EXPECT_EQ(near.voxel_size_m, s_.resolutions.coarse_m);
   EXPECT_EQ(near.cloud.size(), all_of({0, 1}).size()) << "4 does not join it, 3 is not merged";
@@ -77,7 +92,7 @@ TEST_F(MergedScansTest, NearAScanIsWhatItsMergedNeighboursShow) {
 TEST_F(MergedScansTest, WhatNothingJoinsMeetsWhatIsNearest) {
   const PairGraph graph = this->graph();
   MergedScans s(s_.scans, graph, component_);
-  s.add(1);
+  add(s, 1);
   EXPECT_EQ(s.near(4, 0).cloud.size(), all_of({1}).size());
 }
 

@@ -139,7 +139,7 @@ void release_paged_memory() noexcept {
 }
 
 void* allocate_array(std::size_t num_bytes) {
-  if (in_scope && num_bytes >= kSmallestPagedArray) {
+  if (in_scope && num_bytes >= kSmallestPagedArray && num_bytes < kAddresses) {
     if (void* const pages = allocate_pages(in_pages(num_bytes))) return pages;
   }
   return ::operator new(num_bytes);
