@@ -185,6 +185,19 @@ TEST(PoseIo, APoseFileIsReadStrictly) {
   }
 }
 
+TEST(PoseIo, WithoutAVerdictAPoseIsTaken) {
+  const TempFolder folder;
+  const auto path = folder.write(
+      "a.json",
+      R"({"schema": 1, "reference": "a.ply", "scans": [{"file": "a.ply", "status": "reference", )"
+      R"("pose": [[1,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]], "component": 0, "verdict": "", "reason": ""}, )"
+      R"({"file": "b.ply", "status": "unregistered", "pose": null, "component": 1, "verdict": "", "reason": ""}]})");
+  const PoseFile poses = read_pose_file(path);
+  ASSERT_EQ(poses.scans.size(), 2u);
+  EXPECT_EQ(poses.scans[0].verdict, Verdict::kAccepted);
+  EXPECT_EQ(poses.scans[1].verdict, Verdict::kRejected);
+}
+
 TEST(PoseIo, ATransformIsFourLinesOfFullPrecision) {
   const TempFolder folder;
   const auto path = folder.path() / "a.txt";

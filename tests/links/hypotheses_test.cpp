@@ -201,7 +201,9 @@ TEST_F(WithoutUnlikely, APairComparedInVainIsLeftOut) {
 TEST_F(WithoutUnlikely, APairThatLeadsThereButIsLikelierWrongIsLeftOut) {
   compare(0, 1, 0);
   compare(1, 2, 0);
-  set_->add(0, 2, {aside(0, 2, 0, 0.02)});
+  LinkHypothesis unlikely = aside(0, 2, 0);
+  unlikely.measurements = testing::terrible_link();
+  set_->add(0, 2, {unlikely});
   EXPECT_EQ(kept(), (Pairs{{0, 1}, {1, 2}}));
   ASSERT_LT(of(0, 2).front().log_odds, 0);
   ASSERT_GT(of(0, 1).front().log_odds, 0);

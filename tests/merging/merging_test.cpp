@@ -109,7 +109,7 @@ TEST_F(MergingTest, AFitThatLeadsElsewhereIsNotTaken) {
     EXPECT_TRUE(record.simplex.usable());
     EXPECT_NE(record.reason.find("elsewhere"), std::string::npos) << record.reason;
     EXPECT_TRUE(testing::is_pose_near(*inferred.T_reference_scan[record.scan],
-                                      *component_.T_reference_scan[record.scan], 0, 0));
+                                      *component_.T_reference_scan[record.scan], 1e-12, 1e-12));
   }
 }
 

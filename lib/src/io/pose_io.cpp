@@ -88,7 +88,10 @@ ScanPose read_scan(const nlohmann::json& entry, const std::filesystem::path& pat
   scan.pose_in_component = pose_of(entry, "pose_in_component", path, place);
   scan.component = field_of<int>(entry, "component", path, place);
   const auto verdict_name = field_of<std::string>(entry, "verdict", path, place);
-  const auto verdict = verdict_from_name(verdict_name);
+  // Poses of other programs say no more than that they are there.
+  const auto verdict = !verdict_name.empty()                      ? verdict_from_name(verdict_name)
+                       : scan.status == ScanStatus::kUnregistered ? Verdict::kRejected
+                                                                  : Verdict::kAccepted;
   if (!verdict) {
     throw InputError(path, place, "has the unknown verdict '" + verdict_name + "'",
                      "accepted, doubtful and rejected are known");

@@ -22,14 +22,15 @@ std::vector<MergeChoice> choices_of(const MergedScans& s, const Component& compo
   return joined.empty() ? left : joined;
 }
 
-Eigen::Isometry3d place(const PreparedScan& scan, const MergedScans& s, const PairGraph& graph,
-                        const MergeOptions& options, const RunContext& context, MergeRecord& record) {
-  const Eigen::Isometry3d T_start = s.pose(record.scan);
+Eigen::Isometry3d place(const PreparedScan& scan, const Eigen::Isometry3d& T_inferred, const MergedScans& s,
+                        const PairGraph& graph, const MergeOptions& options, const RunContext& context,
+                        MergeRecord& record) {
   if (!options.fits) {
     record.accepted = true;
     record.reason = "merged where inference puts it, from where the joint adjustment starts";
-    return T_start;
+    return T_inferred;
   }
+  const Eigen::Isometry3d T_start = s.pose(record.scan);
   Rng rng = make_stream(context.seed, "placement", scan.key);
   const Eigen::Isometry3d T = fit_to_cloud(scan, s.near(record.scan), T_start, options, rng, record);
   record.accepted = record.simplex.usable() && graph.same_pose(record.scan, T_start, T);
@@ -68,7 +69,7 @@ std::vector<MergeRecord> merge_in_tcm_order(const std::vector<PreparedScan>& sca
     MergeRecord record;
     record.scan = q;
     record.tcm = measures[q]->terms;
-    component.T_reference_scan[q] = place(scans[q], s, graph, options, context, record);
+    component.T_reference_scan[q] = place(scans[q], *inferred.T_reference_scan[q], s, graph, options, context, record);
     for (const std::size_t i : s.add(q, *component.T_reference_scan[q])) measures[i].reset();
     records.push_back(std::move(record));
   }
