@@ -179,11 +179,11 @@ TEST_F(CutsTest, AScanThatNothingHoldsHasANegativeLead) {
 TEST_F(CutsTest, TheLeadBetweenTwoScansIsOfTheWeakestCutThatPartsThem) {
   for (const auto& [a, b] : {std::pair<std::size_t, std::size_t>{0, 1}, {3, 4}}) add(a, b, 8);
   add(1, 3, 4);
-  const auto cuts = weakest_cuts(world_.graph(), world_.truth({0, 1, 3, 4}));
-  EXPECT_NEAR(lead_between(cuts, 0, 1), 8, kOfLogOdds);
-  EXPECT_NEAR(lead_between(cuts, 4, 3), 8, kOfLogOdds);
+  const Leads leads(weakest_cuts(world_.graph(), world_.truth({0, 1, 3, 4})), world_.num_scans());
+  EXPECT_NEAR(leads.between(0, 1), 8, kOfLogOdds);
+  EXPECT_NEAR(leads.between(4, 3), 8, kOfLogOdds);
   for (const auto& [a, b] : {std::pair<std::size_t, std::size_t>{0, 3}, {4, 1}, {0, 4}}) {
-    EXPECT_NEAR(lead_between(cuts, a, b), 4, kOfLogOdds);
+    EXPECT_NEAR(leads.between(a, b), 4, kOfLogOdds);
   }
 }
 

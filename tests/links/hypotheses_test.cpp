@@ -19,6 +19,7 @@ using testing::kVoxel_m;
 using Pairs = std::vector<std::pair<std::size_t, std::size_t>>;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kSetSpread = 1;
 
 // Four scans of one place, each in its own frame.
 class HypothesisSetTest : public ::testing::Test {
@@ -141,13 +142,14 @@ TEST_F(HypothesisSetTest, WhatTheSetsPosesConfirmMakesItsOtherHypothesesLikelier
   const PairGraph graph = set_->graph({true, true, true, true}, {});
   Component loop = component_of_one(0, 4);
   for (const std::size_t i : {1, 2}) loop.T_reference_scan[i] = T_[0].inverse() * T_[i];
-  EXPECT_TRUE(set_->learn_constant(graph, {loop}));
+  EXPECT_TRUE(set_->learn_constant({loop}, {weakest_cuts(graph, loop)}, kSetSpread));
   const double constant = set_->reference().constant;
   EXPECT_GT(constant, 0);
   set_->score();
   EXPECT_DOUBLE_EQ(set_->log_odds(0, 3), before + constant);
   EXPECT_DOUBLE_EQ(set_->log_odds(0, 1), of_loop + constant);
-  EXPECT_FALSE(set_->learn_constant(graph, {loop})) << "learnt from what the hypotheses are by themselves";
+  EXPECT_FALSE(set_->learn_constant({loop}, {weakest_cuts(graph, loop)}, kSetSpread))
+      << "learnt from what the hypotheses are by themselves";
 }
 
 TEST_F(HypothesisSetTest, WhatTheSetsPosesContradictMakesItsOtherHypothesesUnlikelier) {
@@ -155,7 +157,8 @@ TEST_F(HypothesisSetTest, WhatTheSetsPosesContradictMakesItsOtherHypothesesUnlik
   set_->score();
   Component elsewhere = component_of_one(0, 4);
   for (const std::size_t i : {1, 2}) elsewhere.T_reference_scan[i] = T_[0].inverse() * T_[i];
-  set_->learn_constant(set_->graph({true, true, true, true}, {}), {elsewhere});
+  const auto cuts = weakest_cuts(set_->graph({true, true, true, true}, {}), elsewhere);
+  set_->learn_constant({elsewhere}, {cuts}, kSetSpread);
   EXPECT_LT(set_->reference().constant, 0);
 }
 

@@ -1,5 +1,6 @@
 #include "inference/compared_pairs.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -46,6 +47,10 @@ PairGraph::PairGraph(std::vector<ComparedPair> pairs, std::vector<PointMoments> 
   for (std::size_t k = 0; k < pairs_.size(); ++k) {
     of_scan_[pairs_[k].a].push_back(k);
     of_scan_[pairs_[k].b].push_back(k);
+  }
+  for (const PointMoments& points : moments_) {
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(points.covariance, Eigen::EigenvaluesOnly);
+    least_spread_m_.push_back(std::sqrt(std::max(0.0, axes.eigenvalues().head<2>().sum())));
   }
 }
 

@@ -2,6 +2,7 @@
 // What inference starts from: pairs of scans that were compared, and the poses each of them may have.
 
 #include <Eigen/Geometry>
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <vector>
@@ -68,6 +69,10 @@ class PairGraph {
   bool same_mean(const Eigen::Vector3d& at_one, const Eigen::Vector3d& at_other) const {
     return (at_one - at_other).squaredNorm() < same_m_ * same_m_;
   }
+  /// How far apart [m] two poses of a scan that are one can put what lies `from_mean_m` from the mean of its points.
+  double farthest_as_one(std::size_t scan, double from_mean_m) const {
+    return same_m_ * std::hypot(1, from_mean_m / least_spread_m_[scan]);
+  }
 
   /// What a pair says for its scans' poses: the logarithm of how much likelier they are with its hypotheses than if all
   /// of those were wrong, log(1 + exp(l + c)) of the one that says most; 0 where none agrees. c is what it is worth
@@ -101,6 +106,7 @@ class PairGraph {
  private:
   std::vector<ComparedPair> pairs_;
   std::vector<PointMoments> moments_;
+  std::vector<double> least_spread_m_;  // of each scan's points: rms distance from an axis through their mean
   double same_m_;
   InferenceOptions options_;
   std::vector<std::vector<std::size_t>> of_scan_;

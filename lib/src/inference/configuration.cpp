@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "inference/cuts.hpp"
+#include "inference/pairs_across.hpp"
 #include "inference/places.hpp"
 
 namespace tcm_icp {
@@ -92,15 +93,16 @@ bool move_groups(const PairGraph& graph, Component& component) {
     if (part.size() < 2) continue;
     // As poses are by now: an earlier cut may have moved some of these.
     if (!std::all_of(part.begin(), part.end(), [&](std::size_t i) { return component.has(i); })) continue;
-    const double here = measure_support(graph, component, part);
-    if (here >= -kLeastGain && most_elsewhere(graph, component, part) <= std::max(here, 0.0)) continue;
-    const Cut now = measure_cut(graph, component, part);
-    if (now.other_motion && now.other_support > std::max(now.support, 0.0) + kLeastGain) {
-      for (const std::size_t i : now.moved) {
-        component.T_reference_scan[i] = *now.other_motion * *component.T_reference_scan[i];
+    const PairsAcross across(graph, component, part);
+    const double here = across.support(Eigen::Isometry3d::Identity());
+    if (here >= -kLeastGain && across.most_elsewhere() <= std::max(here, 0.0)) continue;
+    const PairsAcross::Elsewhere elsewhere = across.best_elsewhere();
+    if (elsewhere.motion && elsewhere.support > std::max(here, 0.0) + kLeastGain) {
+      for (const std::size_t i : part) {
+        component.T_reference_scan[i] = *elsewhere.motion * *component.T_reference_scan[i];
       }
-    } else if (now.support < -kLeastGain) {
-      for (const std::size_t i : now.moved) component.T_reference_scan[i].reset();  // a component of its own
+    } else if (here < -kLeastGain) {
+      for (const std::size_t i : part) component.T_reference_scan[i].reset();  // a component of its own
     } else {
       continue;
     }
@@ -115,7 +117,7 @@ bool drop_contradicted(const PairGraph& graph, Component& component) {
   bool dropped = false;
   for (const std::vector<std::size_t>& part : weakest_parts(graph, component)) {
     if (!std::all_of(part.begin(), part.end(), [&](std::size_t i) { return component.has(i); })) continue;
-    if (measure_support(graph, component, part) >= -kLeastGain) continue;
+    if (PairsAcross(graph, component, part).support(Eigen::Isometry3d::Identity()) >= -kLeastGain) continue;
     for (const std::size_t i : part) component.T_reference_scan[i].reset();
     dropped = true;
   }

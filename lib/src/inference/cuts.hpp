@@ -28,19 +28,12 @@ struct Cut {
 /// The cut between `moved` and the other members.
 Cut measure_cut(const PairGraph& graph, const Component& component, std::vector<std::size_t> moved);
 
-/// Its support alone.
-double measure_support(const PairGraph& graph, const Component& component, const std::vector<std::size_t>& moved);
-
-/// What the pairs across could say, together, for another place of `moved` at the most: that of a motion which leaves
-/// no pair at its pose. Cost: the pairs across.
-double most_elsewhere(const PairGraph& graph, const Component& component, const std::vector<std::size_t>& moved);
-
 /// The parts that minimum cuts of the pairs' support leave, without the reference, each once: for any two members the
-/// weakest hold between them is among them. Cost: a flow for each member.
+/// weakest hold between them is among them. Cost: minimum_cuts().
 std::vector<std::vector<std::size_t>> weakest_parts(const PairGraph& graph, const Component& component);
 
-/// The cuts of those parts and of every member by itself, each once. Cost: a flow for each member, and for each cut the
-/// pairs across times the poses they lead to; the same for any number of threads.
+/// The cuts of those parts and of every member by itself, each once; the same for any number of threads. Cost:
+/// minimum_cuts(), and PairsAcross::best_elsewhere() for each.
 std::vector<Cut> weakest_cuts(const PairGraph& graph, const Component& component, int num_threads = 1);
 
 /// Those of the moved that pairs across the cut hold where they are: there, more may be found out. All of them where
@@ -53,7 +46,19 @@ std::vector<std::size_t> clear_groups(const std::vector<Component>& components,
                                       const std::vector<std::vector<Cut>>& cuts, double clear_lead,
                                       std::size_t num_scans);
 
-/// The least lead of the cuts between two members.
-double lead_between(const std::vector<Cut>& cuts, std::size_t a, std::size_t b);
+/// The least lead of the cuts that part two members. Cost: cuts times scans once, then at most the cuts a question.
+class Leads {
+ public:
+  Leads(const std::vector<Cut>& cuts, std::size_t num_scans);
+  /// Infinite where no cut parts them.
+  double between(std::size_t a, std::size_t b) const;
+
+ private:
+  struct Sides {
+    double lead;
+    std::vector<bool> moves;  // each scan
+  };
+  std::vector<Sides> sides_;  // the least lead first
+};
 
 }  // namespace tcm_icp

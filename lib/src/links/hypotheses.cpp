@@ -5,7 +5,6 @@
 #include <limits>
 #include <numeric>
 
-#include "inference/cuts.hpp"
 #include "inference/set_constant.hpp"
 #include "links/link_likelihood.hpp"
 
@@ -72,15 +71,17 @@ void HypothesisSet::score() {
   }
 }
 
-bool HypothesisSet::learn_constant(const PairGraph& graph, const std::vector<Component>& components) {
+bool HypothesisSet::learn_constant(const std::vector<Component>& components, const std::vector<std::vector<Cut>>& cuts,
+                                   double set_spread) {
   std::vector<JudgedHypothesis> judged;
-  for (const Component& component : components) {
-    const std::vector<Cut> cuts = weakest_cuts(graph, component);
+  for (std::size_t c = 0; c < components.size(); ++c) {
+    const Component& component = components[c];
+    const Leads leads(cuts[c], moments_.size());
     const auto& T = component.T_reference_scan;
     for (const auto& [pair, hypotheses] : pairs_) {
       const auto [a, b] = pair;
       if (!component.has(a) || !component.has(b)) continue;
-      const double sure = 1 / (1 + std::exp(-lead_between(cuts, a, b)));
+      const double sure = 1 / (1 + std::exp(-leads.between(a, b)));
       for (const auto& h : hypotheses) {
         if (is_implied(h)) continue;  // agrees with poses right or wrong
         const bool right = rms_displacement((T[a]->inverse() * *T[b]).inverse() * h.T_a_b, moments_[b]) < same_m();
@@ -89,7 +90,7 @@ bool HypothesisSet::learn_constant(const PairGraph& graph, const std::vector<Com
     }
   }
   const double before = reference_.constant;
-  reference_.constant = set_constant(judged, graph.options().set_spread);
+  reference_.constant = set_constant(judged, set_spread);
   return std::abs(reference_.constant - before) > kSameConstant;
 }
 

@@ -9,6 +9,7 @@
 
 #include "core/acceptance.hpp"
 #include "inference/compared_pairs.hpp"
+#include "inference/cuts.hpp"
 #include "tcm_icp/coarse/pose_candidate.hpp"
 #include "tcm_icp/core/rigid_transform.hpp"
 #include "tcm_icp/links/link_measurements.hpp"
@@ -39,8 +40,11 @@ class HypothesisSet {
   /// Learns from the hypotheses that agree with `components`, and those that contradict them, how much likelier or
   /// unlikelier this set's are than those of other sets that look alike: one constant in all log-odds. What hangs by a
   /// small lead counts little. score() brings it into effect. Cost: pairs times scans.
+  /// @param cuts        weakest_cuts() of each component
+  /// @param set_spread  InferenceOptions::set_spread
   /// @return whether the constant is another than before
-  bool learn_constant(const PairGraph& graph, const std::vector<Component>& components);
+  bool learn_constant(const std::vector<Component>& components, const std::vector<std::vector<Cut>>& cuts,
+                      double set_spread);
 
   const std::map<std::pair<std::size_t, std::size_t>, std::vector<LinkHypothesis>>& pairs() const { return pairs_; }
   const SetReference& reference() const { return reference_; }

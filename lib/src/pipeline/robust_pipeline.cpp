@@ -118,11 +118,11 @@ class RobustPipeline {
     for (int round = 1;; ++round) {
       PairGraph graph = hypotheses_->graph(std::vector<bool>(size(), true), in_.options.inference);
       std::vector<Component> components = likeliest_components(graph);
-      if (round == kMaxLearnt || !hypotheses_->learn_constant(graph, components)) {
-        std::vector<std::vector<Cut>> cuts;
-        for (const Component& component : components) {
-          cuts.push_back(weakest_cuts(graph, component, in_.context.num_threads));
-        }
+      std::vector<std::vector<Cut>> cuts;
+      for (const Component& component : components) {
+        cuts.push_back(weakest_cuts(graph, component, in_.context.num_threads));
+      }
+      if (round == kMaxLearnt || !hypotheses_->learn_constant(components, cuts, in_.options.inference.set_spread)) {
         return {std::move(graph), std::move(components), std::move(cuts)};
       }
       hypotheses_->score();
