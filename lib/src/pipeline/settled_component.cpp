@@ -204,23 +204,43 @@ class Settling {
     m.other_distance = rms_displacement(T.inverse() * *weakest->other_motion * T, scans_[scan].moments);
   }
 
-  // Who leaves: nobody, where all pass.
+  // Who leaves: nobody, where all pass. What a scan that leaves is linked to is judged again without it; what is not
+  // leaves together with it.
   std::vector<std::size_t> decide_members() {
     const std::vector<std::size_t> members = out_.component.members();
     if (members.size() < 2) return {};
     std::vector<ScanMeasurements> all;
     for (const std::size_t i : members) all.push_back(*out_.measurements[i]);
     const ComponentReference usual = ComponentReference::of(all);
-    std::optional<std::size_t> worst;
+    std::vector<std::size_t> worst_first;
     for (const std::size_t i : members) {
       out_.decisions[i] = decide(*out_.measurements[i], usual, options_.decision);
-      if (out_.decisions[i].accepted()) continue;
-      if (!worst || out_.decisions[i].probability < out_.decisions[*worst].probability) worst = i;
+      if (!out_.decisions[i].accepted()) worst_first.push_back(i);
     }
-    if (!worst) return {};
-    const Cut* cut = weakest_cut_of(*worst);
-    if (out_.decisions[*worst].reason != Reason::kAmbiguous || cut == nullptr) return {*worst};
-    // As a whole: of two parts that may lie elsewhere to one another, the larger stays.
+    std::stable_sort(worst_first.begin(), worst_first.end(), [&](std::size_t x, std::size_t y) {
+      return out_.decisions[x].probability < out_.decisions[y].probability;
+    });
+    std::vector<std::size_t> leaving;
+    std::vector<bool> is_touched(scans_.size(), false);  // leaves, or is linked to what does
+    for (const std::size_t i : worst_first) {
+      const std::vector<std::size_t> part = leaving_with(i, members);
+      const bool waits = std::any_of(part.begin(), part.end(), [&](std::size_t j) { return is_touched[j]; }) ||
+                         (!leaving.empty() && 2 * part.size() > members.size() - leaving.size());
+      if (waits) continue;
+      leaving.insert(leaving.end(), part.begin(), part.end());
+      std::vector<bool> leaves(scans_.size(), false);
+      for (const std::size_t j : part) is_touched[j] = leaves[j] = true;
+      for (const auto& [a, b] : out_.pairs) {
+        if (leaves[a] || leaves[b]) is_touched[a] = is_touched[b] = true;
+      }
+    }
+    return leaving;
+  }
+
+  // What may lie elsewhere leaves as a whole: of two parts that do to one another, the larger stays.
+  std::vector<std::size_t> leaving_with(std::size_t scan, const std::vector<std::size_t>& members) const {
+    const Cut* cut = weakest_cut_of(scan);
+    if (out_.decisions[scan].reason != Reason::kAmbiguous || cut == nullptr) return {scan};
     if (2 * cut->moved.size() <= members.size()) return cut->moved;
     std::vector<std::size_t> others;
     std::set_difference(members.begin(), members.end(), cut->moved.begin(), cut->moved.end(),
