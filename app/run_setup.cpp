@@ -16,6 +16,41 @@
 #include "values_by_scan.hpp"
 
 namespace tcm_icp::app {
+namespace {
+
+LengthUnit parse_unit(const std::string& option, const std::string& name) {
+  if (const auto unit = unit_from_name(name)) return *unit;
+  throw InvalidOptions("--unit " + option + ": choose one of m, mm, ft, us-ft" +
+                       did_you_mean(name, {"m", "mm", "ft", "us-ft"}));
+}
+
+InitialPoses poses_in_headers(const std::vector<std::filesystem::path>& paths) {
+  InitialPoses poses;
+  for (const auto& path : paths) poses.push_back(ScanReader(path, ReadAttributes::kNo).header_pose());
+  const bool has_any = std::any_of(poses.begin(), poses.end(), [](const auto& pose) { return pose.has_value(); });
+  if (has_any) return poses;
+  throw InvalidOptions(
+      "--init headers: no scan has a pose in its file; only PTX and E57 have them; leave it out, and poses are "
+      "searched");
+}
+
+// So that a POSIX shell takes it as one word.
+std::string shell_word(const std::string& argument) {
+  const bool plain = !argument.empty() && std::all_of(argument.begin(), argument.end(), [](unsigned char c) {
+    return c >= 0x80 || std::isalnum(c) != 0 || std::strchr("_@%+=:,./-", c) != nullptr;
+  });
+  if (plain) return argument;
+  std::string out = "'";
+  for (const char c : argument) {
+    if (c == '\'')
+      out += "'\\''";
+    else
+      out += c;
+  }
+  return out + "'";
+}
+
+}  // namespace
 
 std::string report_coordinate_systems(const std::vector<std::filesystem::path>& scans, const std::string& what,
                                       const RunContext& context) {
@@ -44,16 +79,6 @@ BinLayout parse_bin(const std::string& text) {
   throw InvalidOptions("--bin '" + text + "': choose one of kitti, nuscenes" +
                        did_you_mean(text, {"kitti", "nuscenes"}));
 }
-
-namespace {
-
-LengthUnit parse_unit(const std::string& option, const std::string& name) {
-  if (const auto unit = unit_from_name(name)) return *unit;
-  throw InvalidOptions("--unit " + option + ": choose one of m, mm, ft, us-ft" +
-                       did_you_mean(name, {"m", "mm", "ft", "us-ft"}));
-}
-
-}  // namespace
 
 std::vector<std::size_t> scans_called(const std::string& name, const std::vector<std::filesystem::path>& scans,
                                       const std::string& option) {
@@ -88,20 +113,6 @@ void report_left_out(const ScanInputs& inputs, const RunContext& context) {
     context.warn("left out: " + std::to_string(inputs.left_out.size() - kMost) + " more files");
   }
 }
-
-namespace {
-
-InitialPoses poses_in_headers(const std::vector<std::filesystem::path>& paths) {
-  InitialPoses poses;
-  for (const auto& path : paths) poses.push_back(ScanReader(path, ReadAttributes::kNo).header_pose());
-  const bool has_any = std::any_of(poses.begin(), poses.end(), [](const auto& pose) { return pose.has_value(); });
-  if (has_any) return poses;
-  throw InvalidOptions(
-      "--init headers: no scan has a pose in its file; only PTX and E57 have them; leave it out, and poses are "
-      "searched");
-}
-
-}  // namespace
 
 InitialPoses read_guess(const ScanSetOptions& options, const std::vector<std::filesystem::path>& paths) {
   if (options.initial_poses.empty()) return InitialPoses(paths.size());
@@ -143,22 +154,6 @@ std::string time_now() {
   std::string time(clock);
   time.append(offset, 3).append(":").append(offset + 3);
   return time;
-}
-
-// So that a POSIX shell takes it as one word.
-static std::string shell_word(const std::string& argument) {
-  const bool plain = !argument.empty() && std::all_of(argument.begin(), argument.end(), [](unsigned char c) {
-    return c >= 0x80 || std::isalnum(c) != 0 || std::strchr("_@%+=:,./-", c) != nullptr;
-  });
-  if (plain) return argument;
-  std::string out = "'";
-  for (const char c : argument) {
-    if (c == '\'')
-      out += "'\\''";
-    else
-      out += c;
-  }
-  return out + "'";
 }
 
 std::string command_line(std::string_view command, const Arguments& arguments) {

@@ -21,6 +21,8 @@ class MergedScans {
   std::vector<std::size_t> add(std::size_t scan, const Eigen::Isometry3d& T_reference_scan);
 
   bool has(std::size_t scan) const { return merged_[scan]; }
+  /// Merged scans where they were merged, others where inference puts them.
+  const Component& component() const { return component_; }
   /// Where a merged scan is; where inference puts another beside the merged one that it overlaps most with, so that
   /// what fits have moved so far moves it, too.
   Eigen::Isometry3d pose(std::size_t scan) const;
@@ -41,7 +43,7 @@ class MergedScans {
   const std::vector<PreparedScan>& scans_;
   const PairGraph& graph_;
   const Component& inferred_;
-  Component component_;  ///< as `inferred_`, but merged scans are where they were merged
+  Component component_;
   std::vector<bool> merged_;
   std::vector<std::vector<Neighbor>> neighbors_;  ///< merged ones of each scan, the most overlapping first
 };

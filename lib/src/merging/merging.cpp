@@ -46,8 +46,7 @@ Eigen::Isometry3d place(const PreparedScan& scan, const Eigen::Isometry3d& T_inf
 std::vector<MergeRecord> merge_in_tcm_order(const std::vector<PreparedScan>& scans, const PairGraph& graph,
                                             const MergeOptions& options, const RunContext& context,
                                             Component& component) {
-  const Component inferred = component;
-  MergedScans s(scans, graph, inferred);
+  MergedScans s(scans, graph, component);
   s.add(component.reference, *component.T_reference_scan[component.reference]);
   TcmOrder order(scans, options, context);
   std::vector<std::optional<MergeMeasure>> measures(scans.size());  // of those whose part of S is as it was then
@@ -69,10 +68,11 @@ std::vector<MergeRecord> merge_in_tcm_order(const std::vector<PreparedScan>& sca
     MergeRecord record;
     record.scan = q;
     record.tcm = measures[q]->terms;
-    component.T_reference_scan[q] = place(scans[q], *inferred.T_reference_scan[q], s, graph, options, context, record);
-    for (const std::size_t i : s.add(q, *component.T_reference_scan[q])) measures[i].reset();
+    const Eigen::Isometry3d T = place(scans[q], *component.T_reference_scan[q], s, graph, options, context, record);
+    for (const std::size_t i : s.add(q, T)) measures[i].reset();
     records.push_back(std::move(record));
   }
+  component = s.component();
   return records;
 }
 

@@ -44,8 +44,23 @@ std::string advice(const Json& report, const WeakSpot& spot) {
   return out + ": one more set-up between these two would hold " + (one ? "it." : "them.");
 }
 
-// A group that holds together, but not with the rest, hangs on what leads out of it: of all pairs across, the
-// likeliest.
+// Of the compared pairs that lead from scans that `is_inside` names to others; null where there is none.
+template <typename IsInside>
+const Json* likeliest_link_out(const Json& report, const IsInside& is_inside) {
+  const Json* likeliest = nullptr;
+  for (const auto& h : report.at("hypotheses")) {
+    if (is_inside(h.at("a")) == is_inside(h.at("b"))) continue;
+    if (likeliest == nullptr || h.at("log_odds") > likeliest->at("log_odds")) likeliest = &h;
+  }
+  return likeliest;
+}
+
+std::string look_at_these(const Json& link) {
+  return ", " + percent(link.at("evidence").at("overlap")) + " overlap, " + odds(link.at("log_odds").get<double>()) +
+         ": look at these two first. One more set-up between ";
+}
+
+// A group that holds together, but not with the rest, hangs on what leads out of it.
 std::string advice_for_group(const Json& report, int component) {
   const auto is_inside = [&](const Json& file) {
     const Json& scan = report.at("scans").at(scan_number(report, file));
@@ -55,42 +70,30 @@ std::string advice_for_group(const Json& report, int component) {
   for (std::size_t i = 0; i < report.at("scans").size(); ++i) {
     if (is_inside(report.at("scans").at(i).at("file"))) members.push_back(i);
   }
-  const Json* likeliest = nullptr;
-  for (const auto& h : report.at("hypotheses")) {
-    if (is_inside(h.at("a")) == is_inside(h.at("b"))) continue;
-    if (likeliest == nullptr || h.at("log_odds") > likeliest->at("log_odds")) likeliest = &h;
-  }
   const std::string start = "Scans " + scans_in_words(report, members) + " hold together (group " +
                             std::to_string(component) + "), but are not registered with the others. ";
+  const Json* likeliest = likeliest_link_out(report, is_inside);
   if (likeliest == nullptr || likeliest->at("log_odds").get<double>() <= 0) {
     return start +
            "No pair of theirs with one of them looks right: scan again from between, with 30\u202F% overlap or more, "
-           "or "
-           "leave them out where they are of another place.";
+           "or leave them out where they are of another place.";
   }
   return start + "The likeliest link is " + scan_label(report, likeliest->at("a")) + " with " +
-         scan_label(report, likeliest->at("b")) + ", " + percent(likeliest->at("evidence").at("overlap")) +
-         " overlap, " + odds(likeliest->at("log_odds").get<double>()) +
-         ": look at these two first. One more set-up between the group and the others is needed.";
+         scan_label(report, likeliest->at("b")) + look_at_these(*likeliest) + "the group and the others is needed.";
 }
 
 std::string advice_for_unregistered(const Json& report, const Json& scan) {
-  const Json* likeliest = nullptr;
-  for (const auto& h : report.at("hypotheses")) {
-    if (h.at("a") != scan.at("file") && h.at("b") != scan.at("file")) continue;
-    if (likeliest == nullptr || h.at("log_odds") > likeliest->at("log_odds")) likeliest = &h;
-  }
+  const auto is_inside = [&](const Json& file) { return file == scan.at("file"); };
   const std::string label = scan_label(report, scan.at("file"));
+  const Json* likeliest = likeliest_link_out(report, is_inside);
   if (likeliest == nullptr) {
     return label +
            " shares nothing that was found with any other scan: scan again from between it and its neighbours, "
            "30\u202F% overlap or more.";
   }
-  const Json& other = likeliest->at("a") == scan.at("file") ? likeliest->at("b") : likeliest->at("a");
+  const Json& other = is_inside(likeliest->at("a")) ? likeliest->at("b") : likeliest->at("a");
   return label + " is not registered (" + sentence(scan.at("reason")) + "). Its likeliest link is with " +
-         scan_label(report, other) + ", " + percent(likeliest->at("evidence").at("overlap")) + " overlap, " +
-         odds(likeliest->at("log_odds").get<double>()) +
-         ": look at these two first. One more set-up between them would show whether it is right.";
+         scan_label(report, other) + look_at_these(*likeliest) + "them would show whether it is right.";
 }
 
 }  // namespace

@@ -25,16 +25,16 @@ Rows order_rows(const Json& report) {
 }
 
 Rows merge_rows(const Json& report) {
-  Rows rows;
+  Rows rows = order_rows(report);
   Json sum = Json::object();
-  for (const auto& m : report.at("merges")) {
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const Json& m = report.at("merges").at(k);
     const Json& lp = m.at("simplex").at("lp");
     const bool accepted = m.at("accepted").get<bool>();
-    rows.push_back({std::to_string(rows.size() + 1), scan_label(report, m.at("scan")), figure(m.at("tcm").at("tau")),
-                    badge(accepted ? "good" : "fair", accepted ? "fitted" : "not fitted"), count(lp.at("programs")),
-                    count(lp.at("pivots")), figure(lp.at("seconds"), 1000),
-                    figure(m.at("simplex").at("median_residual_m"), 1000), trace(m, "descent"), trace(m, "annealing"),
-                    accepted ? "" : sentence(m.at("reason"))});
+    rows[k].insert(rows[k].end(), {badge(accepted ? "good" : "fair", accepted ? "fitted" : "not fitted"),
+                                   count(lp.at("programs")), count(lp.at("pivots")), figure(lp.at("seconds"), 1000),
+                                   figure(m.at("simplex").at("median_residual_m"), 1000), trace(m, "descent"),
+                                   trace(m, "annealing"), accepted ? "" : sentence(m.at("reason"))});
     sum["programs"] = sum.value("programs", 0LL) + lp.at("programs").get<long long>();
     sum["pivots"] = sum.value("pivots", 0LL) + lp.at("pivots").get<long long>();
     sum["seconds"] = sum.value("seconds", 0.0) + lp.at("seconds").get<double>();

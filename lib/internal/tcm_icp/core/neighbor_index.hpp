@@ -21,8 +21,7 @@ struct Neighbor {
 /// A kd-tree over a copy of `points`. Built in the constructor, so every query is const and thread-safe. Answers are
 /// exact and depend on the points alone: of equally near points the one with the lowest index counts as nearer. A query
 /// that is not finite finds nothing.
-/// Cost: O(N log N) to build, O(log N) expected a query; 32 bytes a point, twice that while it is
-/// built.
+/// Cost: O(N log N) to build, O(log N) expected a query; 32 bytes a point, twice that while it is built.
 class NeighborIndex {
  public:
   /// @throws InvalidInput  if a coordinate is not finite, or there are more than 4,000,000,000 points
