@@ -10,7 +10,7 @@ namespace {
 using Eigen::Isometry3d;
 using testing::HypothesisWorld;
 
-constexpr double kRounding = 1e-9;
+constexpr double kRounding = 1e-9, kNothing = -1e300;
 
 double between(double low, double high, Rng& rng) { return low + (high - low) * uniform01(rng); }
 
@@ -40,7 +40,7 @@ class PairsAcrossTest : public ::testing::Test {
 };
 
 // Asking every hypothesis about every motion.
-TEST_F(PairsAcrossTest, TheTreeMissesNoHypothesisThatAgrees) {
+TEST_F(PairsAcrossTest, TheCellsMissNoHypothesisThatAgrees) {
   for (int trial = 0; trial < 20; ++trial) {
     world_ = HypothesisWorld(10, rng_);
     add_pairs_across(rng_);
@@ -63,11 +63,13 @@ TEST_F(PairsAcrossTest, TheTreeMissesNoHypothesisThatAgrees) {
           if (!graph.same_pose(scan, T_scan, motion * T_scan)) best = std::max(best, across.support(motion));
         }
       }
-      const PairsAcross::Elsewhere found = across.best_elsewhere();
+      const PairsAcross::Elsewhere found = across.best_elsewhere(kNothing);
       ASSERT_TRUE(found.motion);
       EXPECT_NEAR(found.support, best, kRounding);
       EXPECT_NEAR(across.support(*found.motion), best, kRounding);
       EXPECT_GE(across.most_elsewhere(), best);
+      EXPECT_EQ(across.best_elsewhere(found.support - kRounding).support, found.support);
+      EXPECT_FALSE(across.best_elsewhere(found.support).motion);
       EXPECT_GT(best, 0) << "the twin has something for it";
     }
   }
@@ -79,7 +81,7 @@ TEST_F(PairsAcrossTest, NothingAcrossSaysNothing) {
   const PairsAcross across(graph, component, {1});
   EXPECT_EQ(across.support(Isometry3d::Identity()), -graph.options().log_poses);
   EXPECT_EQ(across.most_elsewhere(), -graph.options().log_poses);
-  EXPECT_FALSE(across.best_elsewhere().motion);
+  EXPECT_FALSE(across.best_elsewhere(kNothing).motion);
 }
 
 }  // namespace

@@ -194,6 +194,8 @@ TEST(E57Reading, WhatIsWrongIsTold) {
   scan.columns.resize(5000, {"a", kSingle, ""});
   EXPECT_NE(message(e57_file({scan})).find("more columns of points than"), std::string::npos);
   scan = two_points();
+  scan.pose = "<pose><translation><x>1</x><y>up</y></translation></pose>";
+  EXPECT_NE(message(e57_file({scan})).find("'up' in place of a number"), std::string::npos);
   scan.pose = "<pose><rotation><w>2</w></rotation></pose>";
   const ScanReader reader(folder.write("c.e57", e57_file({scan})));
   EXPECT_NE(error_of<InputError>([&] { (void)reader.header_pose(); }).find("not a rigid motion"), std::string::npos);

@@ -74,6 +74,9 @@ class PairGraph {
     return same_m_ * std::hypot(1, from_mean_m / least_spread_m_[scan]);
   }
 
+  /// How differently [chord] two poses of a scan that are one can turn a direction.
+  double most_turn_as_one(std::size_t scan) const { return same_m_ / least_spread_m_[scan]; }
+
   /// What a pair says for its scans' poses: the logarithm of how much likelier they are with its hypotheses than if all
   /// of those were wrong, log(1 + exp(l + c)) of the one that says most; 0 where none agrees. c is what it is worth
   /// that a hypothesis and the poses agree so closely: log_poses up to same_m / 8, from there on log_spread less for

@@ -6,6 +6,7 @@
 #include "inference/cuts.hpp"
 #include "inference/pairs_across.hpp"
 #include "inference/places.hpp"
+#include "tcm_icp/core/parallel.hpp"
 
 namespace tcm_icp {
 namespace {
@@ -50,7 +51,7 @@ void grow(const PairGraph& graph, const std::vector<bool>& open, Component& comp
   }
 }
 
-// Single scans to where the others support them most, or out. True where anything moved.
+// Single scans to where the others support them most, or out. True where one is at a clearly different place.
 bool move_scans(const PairGraph& graph, Component& component) {
   bool moved = false;
   for (const std::size_t i : component.members()) {
@@ -61,7 +62,7 @@ bool move_scans(const PairGraph& graph, Component& component) {
     const std::optional<Place> best = Places::beside(graph, i, component).best(component);
     if (best && best->support > std::max(0.0, here) + kLeastGain) {
       component.T_reference_scan[i] = best->T;
-      moved = true;
+      moved = moved || !graph.same_pose(i, T, best->T);
     } else if (here > 0) {
       component.T_reference_scan[i] = T;
     } else {
@@ -71,9 +72,9 @@ bool move_scans(const PairGraph& graph, Component& component) {
   return moved;
 }
 
-// To the mean of what agrees: chains of hypotheses add their errors up, and what lies off supports less. True where the
-// likelihood grew.
-bool average_poses(const PairGraph& graph, Component& component) {
+// To the mean of what agrees: chains of hypotheses add their errors up, and what lies off supports less. What the
+// likelihood gains.
+double average_poses(const PairGraph& graph, Component& component) {
   double gain = 0;
   for (const std::size_t i : component.members()) {
     if (i == component.reference) continue;
@@ -83,30 +84,53 @@ bool average_poses(const PairGraph& graph, Component& component) {
     component.T_reference_scan[i] = mean;
     gain += more;
   }
-  return gain > kLeastAverage;
+  return gain;
 }
 
-// Parts to where the rest supports them most, or out.
-bool move_groups(const PairGraph& graph, Component& component) {
+// Where the others support a part most, as a motion from where it is; or out.
+struct PartMove {
+  std::optional<Eigen::Isometry3d> motion;
+  bool leaves = false;
+};
+
+PartMove move_of(const PairGraph& graph, const Component& component, const std::vector<std::size_t>& part) {
+  const PairsAcross across(graph, component, part);
+  const double here = across.support(Eigen::Isometry3d::Identity());
+  const bool contradicted = here < -kLeastGain;
+  if (!contradicted && across.most_elsewhere() <= std::max(here, 0.0)) return {};
+  const auto motion = across.best_elsewhere(std::max(here, 0.0) + kLeastGain).motion;
+  return {motion, contradicted && !motion};
+}
+
+bool apply(const PartMove& move, const std::vector<std::size_t>& part, Component& component) {
+  for (const std::size_t i : part) {
+    if (move.motion) component.T_reference_scan[i] = *move.motion * *component.T_reference_scan[i];
+    if (move.leaves) component.T_reference_scan[i].reset();  // a component of its own
+  }
+  return move.motion || move.leaves;
+}
+
+// Parts to where the rest supports them most, or out, one after the other: each by the poses that earlier ones left.
+// Few move, so that many are asked side by side, and those behind one that moved again.
+bool move_groups(const PairGraph& graph, Component& component, int num_threads) {
+  std::vector<std::vector<std::size_t>> parts = weakest_parts(graph, component);
+  std::erase_if(parts, [](const auto& part) { return part.size() < 2; });
+  const auto is_whole = [&](const std::vector<std::size_t>& part) {
+    return std::all_of(part.begin(), part.end(), [&](std::size_t i) { return component.has(i); });
+  };
   bool moved = false;
-  for (const std::vector<std::size_t>& part : weakest_parts(graph, component)) {
-    if (part.size() < 2) continue;
-    // As poses are by now: an earlier cut may have moved some of these.
-    if (!std::all_of(part.begin(), part.end(), [&](std::size_t i) { return component.has(i); })) continue;
-    const PairsAcross across(graph, component, part);
-    const double here = across.support(Eigen::Isometry3d::Identity());
-    if (here >= -kLeastGain && across.most_elsewhere() <= std::max(here, 0.0)) continue;
-    const PairsAcross::Elsewhere elsewhere = across.best_elsewhere();
-    if (elsewhere.motion && elsewhere.support > std::max(here, 0.0) + kLeastGain) {
-      for (const std::size_t i : part) {
-        component.T_reference_scan[i] = *elsewhere.motion * *component.T_reference_scan[i];
+  std::vector<PartMove> moves(4 * static_cast<std::size_t>(std::max(1, num_threads)));
+  if (num_threads <= 1) moves.resize(1);
+  for (std::size_t next = 0; next < parts.size();) {
+    const std::size_t count = std::min(moves.size(), parts.size() - next);
+    parallel_for(num_threads, count, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t k = begin; k < end; ++k) {
+        moves[k] = is_whole(parts[next + k]) ? move_of(graph, component, parts[next + k]) : PartMove{};
       }
-    } else if (here < -kLeastGain) {
-      for (const std::size_t i : part) component.T_reference_scan[i].reset();  // a component of its own
-    } else {
-      continue;
-    }
-    moved = true;
+    });
+    bool moved_now = false;
+    for (std::size_t k = 0; k < count && !moved_now; ++k, ++next) moved_now = apply(moves[k], parts[next], component);
+    moved = moved || moved_now;
   }
   return moved;
 }
@@ -187,12 +211,12 @@ double log_likelihood(const PairGraph& graph, const Component& component) {
   return sum;
 }
 
-void improve(const PairGraph& graph, Component& component) {
-  const std::vector<bool> all(graph.num_scans(), true);
+void improve(const PairGraph& graph, Component& component, int num_threads) {
   for (int sweep = 0; sweep < graph.options().max_sweeps; ++sweep) {
     bool moved = move_scans(graph, component);
-    moved = move_groups(graph, component) || moved;
-    moved = average_poses(graph, component) || moved;
+    moved = move_groups(graph, component, num_threads) || moved;
+    for (int k = 0; k < graph.options().max_sweeps && average_poses(graph, component) > kLeastAverage; ++k) {
+    }
     keep_connected(graph, component);
     if (!moved) return;
   }
@@ -207,7 +231,7 @@ void change_reference(Component& component, std::size_t reference) {
   component.reference = reference;
 }
 
-std::vector<Component> likeliest_components(const PairGraph& graph) {
+std::vector<Component> likeliest_components(const PairGraph& graph, int num_threads) {
   const std::size_t n = graph.num_scans();
   std::vector<Component> out;
   std::vector<bool> open(n, true);
@@ -231,7 +255,7 @@ std::vector<Component> likeliest_components(const PairGraph& graph) {
       grow(graph, open, component);
       for (int round = 0; round < graph.options().max_sweeps; ++round) {
         const std::size_t before = component.size();
-        improve(graph, component);
+        improve(graph, component, num_threads);
         grow(graph, open, component);
         if (component.size() <= before) break;
       }

@@ -15,12 +15,13 @@ double log_likelihood(const PairGraph& graph, const Component& component);
 /// by scan from the strongest hypotheses, then improved by moves of single scans and of groups to other poses that
 /// hypotheses lead to, as long as the likelihood grows. A scan that more speaks against than for is in none. The
 /// reference is the member with the most support.
-/// Cost: about max_grown_scans, or twice the scans, times pairs of a scan, and poses of a scan squared.
-std::vector<Component> likeliest_components(const PairGraph& graph);
+/// The threads share the work and do not change the result. Cost: about max_grown_scans, or twice the scans, times
+/// pairs of a scan, and poses of a scan squared.
+std::vector<Component> likeliest_components(const PairGraph& graph, int num_threads = 1);
 
 /// The component with its poses moved as `cuts` allow, as long as the likelihood grows. For tests, and after new
 /// hypotheses.
-void improve(const PairGraph& graph, Component& component);
+void improve(const PairGraph& graph, Component& component, int num_threads = 1);
 
 /// The same poses in the frame of another member.
 void change_reference(Component& component, std::size_t reference);

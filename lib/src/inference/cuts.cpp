@@ -31,7 +31,7 @@ void sort_without_repeats(std::vector<std::vector<std::size_t>>& parts) {
 
 Cut measure_cut(const PairGraph& graph, const Component& component, std::vector<std::size_t> moved) {
   const PairsAcross across(graph, component, moved);
-  const auto [other_support, other_motion] = across.best_elsewhere();
+  const auto [other_support, other_motion] = across.best_elsewhere(0);
   return {std::move(moved), across.support(Eigen::Isometry3d::Identity()), other_support, other_motion};
 }
 

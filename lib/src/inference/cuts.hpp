@@ -15,14 +15,15 @@ namespace tcm_icp {
 struct Cut {
   std::vector<std::size_t> moved;  ///< ascending; without the reference
   double support = 0;              ///< of the pairs across at the poses as they are, less log_poses
-  double other_support = 0;        ///< of the best clearly different motion of the part
-  /// That motion in the reference's frame: T_new = motion * T_old. None where no hypothesis leads elsewhere.
+  /// Of the best clearly different motion of the part; 0 where none is likelier than that all hypotheses are wrong.
+  double other_support = 0;
+  /// That motion in the reference's frame, T_new = motion * T_old, where there is one.
   std::optional<Eigen::Isometry3d> other_motion;
 
   bool moves(std::size_t scan) const { return std::binary_search(moved.begin(), moved.end(), scan); }
 
   /// Log-odds of the poses against the best other place, or against none at all.
-  double lead() const { return support - (other_support > 0 ? other_support : 0); }
+  double lead() const { return support - other_support; }
 };
 
 /// The cut between `moved` and the other members.

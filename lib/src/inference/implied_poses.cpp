@@ -33,7 +33,7 @@ std::vector<ImpliedPose> implied_poses(
     }
   }
   for (const Cut& cut : cuts) {
-    if (!cut.other_motion || cut.lead() >= clear_lead || cut.other_support <= 0) continue;
+    if (!cut.other_motion || cut.lead() >= clear_lead) continue;
     ++configuration;
     for (const std::size_t i : cut.moved) {
       const Eigen::Isometry3d T_moved = *cut.other_motion * *T[i];

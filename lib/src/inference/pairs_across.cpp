@@ -1,9 +1,7 @@
 #include "inference/pairs_across.hpp"
 
 #include <algorithm>
-#include <numeric>
-
-#include "tcm_icp/core/neighbor_index.hpp"
+#include <iterator>
 
 namespace tcm_icp {
 
@@ -44,74 +42,120 @@ double PairsAcross::support_of(const Pair& p, const Eigen::Isometry3d& motion) c
   return p.moves_b ? graph_.support(*p.pair, T_a, motion * T_b) : graph_.support(*p.pair, motion * T_a, T_b);
 }
 
-double PairsAcross::support(const Eigen::Isometry3d& motion) const {
-  std::vector<std::size_t> all(hypotheses_.size());
-  std::iota(all.begin(), all.end(), std::size_t{0});
-  return support(motion, all);
+bool PairsAcross::may_agree(const Hypothesis& h, const Eigen::Isometry3d& motion, const Eigen::Isometry3d& back) const {
+  const Pair& p = pairs_[h.pair];
+  return graph_.same_mean(h.middle_b, (p.moves_b ? motion : back) * p.middle_b);
 }
 
-double PairsAcross::support(const Eigen::Isometry3d& motion, const std::vector<std::size_t>& indices) const {
+double PairsAcross::support(const Eigen::Isometry3d& motion) const {
   const Eigen::Isometry3d back = motion.inverse();
+  std::vector<std::size_t> found;
+  for (std::size_t k = 0; k < hypotheses_.size(); ++k) {
+    if (may_agree(hypotheses_[k], motion, back)) found.push_back(k);
+  }
+  return support(motion, found);
+}
+
+double PairsAcross::support(const Eigen::Isometry3d& motion, const std::vector<std::size_t>& may_agree) const {
   double sum = -graph_.options().log_poses;
   std::size_t next = 0;  // the first pair that was not asked yet
-  for (const std::size_t k : indices) {
-    const Hypothesis& h = hypotheses_[k];
-    if (h.pair < next) continue;
-    const Pair& p = pairs_[h.pair];
-    // Where the middle of b lies tells at little cost whether the hypothesis agrees.
-    if (!graph_.same_mean(h.middle_b, (p.moves_b ? motion : back) * p.middle_b)) continue;
-    next = h.pair + 1;
-    sum += support_of(p, motion);
+  for (const std::size_t k : may_agree) {
+    const std::size_t pair = hypotheses_[k].pair;
+    if (pair < next) continue;
+    next = pair + 1;
+    sum += support_of(pairs_[pair], motion);
   }
   return sum;
 }
 
-PairsAcross::Elsewhere PairsAcross::best_elsewhere() const {
-  Elsewhere best;
-  if (hypotheses_.empty()) return best;
-  // Motions that agree put the middle of the part at places near to one another.
+double PairsAcross::most_support(const std::vector<std::size_t>& may_agree) const {
+  double sum = -graph_.options().log_poses;
+  std::size_t next = 0;
+  for (const std::size_t k : may_agree) {
+    const std::size_t pair = hypotheses_[k].pair;
+    if (pair < next) continue;
+    next = pair + 1;
+    sum += pairs_[pair].most_support;
+  }
+  return sum;
+}
+
+MotionCells PairsAcross::cells(const std::vector<Eigen::Isometry3d>& motions) const {
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
   for (const Pair& p : pairs_) {
     middle += pose(p.moves_b ? p.pair->b : p.pair->a) * graph_.mean_of(p.moves_b ? p.pair->b : p.pair->a);
   }
   middle /= static_cast<double>(pairs_.size());
-  std::vector<Eigen::Isometry3d> motions;
-  Points places;
-  double reach_m = 0;
+  // How far apart motions that agree put the middle of the part, and how differently they turn a direction.
+  double reach_m = 0, reach_turn = 0;
   for (const Hypothesis& h : hypotheses_) {
     const Pair& p = pairs_[h.pair];
-    motions.push_back(motion_by(h));
-    places.push_back(motions.back() * middle);
     const Eigen::Vector3d& middle_b = p.moves_b ? p.middle_b : h.middle_b;  // before it moves
     reach_m = std::max(reach_m, graph_.farthest_as_one(p.pair->b, (middle_b - middle).norm()));
+    reach_turn = std::max(reach_turn, graph_.most_turn_as_one(p.pair->b));
   }
-  const NeighborIndex index(places);
-  std::vector<Neighbor> near;
-  std::vector<std::size_t> indices;
-  for (std::size_t k = 0; k < hypotheses_.size(); ++k) {
-    if (!is_elsewhere(hypotheses_[k])) continue;
-    index.within(places[k], reach_m, near);
-    indices.clear();
-    for (const Neighbor& n : near) indices.push_back(n.index);
-    std::sort(indices.begin(), indices.end());
-    if (best.motion && most_support(indices) <= best.support) continue;
-    const double found = support(motions[k], indices);
-    if (best.motion && found <= best.support) continue;
-    best = {found, motions[k]};
+  const auto num_motions = static_cast<Eigen::Index>(motions.size());
+  Eigen::Matrix3Xd places(3, num_motions);
+  Eigen::Matrix<double, 9, Eigen::Dynamic> turns(9, num_motions);
+  for (Eigen::Index k = 0; k < num_motions; ++k) {
+    const Eigen::Isometry3d& motion = motions[static_cast<std::size_t>(k)];
+    places.col(k) = motion * middle / reach_m;
+    turns.col(k) = Eigen::Matrix3d(motion.linear() / reach_turn).reshaped();
   }
-  return best;
+  // By two coordinates of the place and one of the turn: sets mostly lie flat.
+  const auto spread = [](const auto& at) -> Eigen::VectorXd {
+    return (at.colwise() - at.rowwise().mean()).rowwise().squaredNorm();
+  };
+  Eigen::Index turn = 0, flat = 0;
+  spread(turns).maxCoeff(&turn);
+  spread(places).minCoeff(&flat);
+  places.row(flat) = turns.row(turn);
+  return MotionCells(places);
 }
 
-double PairsAcross::most_support(const std::vector<std::size_t>& indices) const {
-  double sum = -graph_.options().log_poses;
-  std::size_t next = 0;
-  for (const std::size_t k : indices) {
-    const Hypothesis& h = hypotheses_[k];
-    if (h.pair < next) continue;
-    next = h.pair + 1;
-    sum += pairs_[h.pair].most_support;
+std::vector<PairsAcross::CellPromise> PairsAcross::promises(const MotionCells& cells, double least) const {
+  std::vector<double> most(cells.size(), 0);
+  for (std::size_t c = 0; c < cells.size(); ++c) {
+    for (const std::size_t k : cells.motions(c)) {
+      most[c] += std::max(0.0, graph_.most_support(*hypotheses_[k].hypothesis));
+    }
   }
-  return sum;
+  std::vector<CellPromise> out;
+  for (std::size_t c = 0; c < cells.size(); ++c) {
+    double sum = -graph_.options().log_poses;
+    for (const std::size_t near : cells.around(c)) sum += most[near];
+    if (sum > least) out.push_back({c, sum});
+  }
+  std::stable_sort(out.begin(), out.end(), [](const CellPromise& x, const CellPromise& y) { return x.most > y.most; });
+  return out;
+}
+
+PairsAcross::Elsewhere PairsAcross::best_elsewhere(double least) const {
+  Elsewhere best{least, std::nullopt};
+  if (hypotheses_.empty()) return best;
+  std::vector<Eigen::Isometry3d> motions;
+  for (const Hypothesis& h : hypotheses_) motions.push_back(motion_by(h));
+  const MotionCells cells = this->cells(motions);
+  std::vector<std::size_t> near, found;
+  for (const CellPromise& promise : promises(cells, least)) {
+    if (promise.most <= best.support) break;
+    near.clear();
+    for (const std::size_t c : cells.around(promise.cell)) {
+      near.insert(near.end(), cells.motions(c).begin(), cells.motions(c).end());
+    }
+    std::sort(near.begin(), near.end());
+    for (const std::size_t k : cells.motions(promise.cell)) {
+      if (!is_elsewhere(hypotheses_[k])) continue;
+      const Eigen::Isometry3d back = motions[k].inverse();
+      found.clear();
+      std::copy_if(near.begin(), near.end(), std::back_inserter(found),
+                   [&](std::size_t j) { return may_agree(hypotheses_[j], motions[k], back); });
+      if (most_support(found) <= best.support) continue;
+      const double supported = support(motions[k], found);
+      if (supported > best.support) best = {supported, motions[k]};
+    }
+  }
+  return best;
 }
 
 double PairsAcross::most_elsewhere() const {

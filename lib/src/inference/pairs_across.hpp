@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "inference/compared_pairs.hpp"
+#include "inference/motion_cells.hpp"
 
 namespace tcm_icp {
 
@@ -22,11 +23,11 @@ class PairsAcross {
 
   struct Elsewhere {
     double support = 0;
-    std::optional<Eigen::Isometry3d> motion;  ///< none where no hypothesis leads elsewhere
+    std::optional<Eigen::Isometry3d> motion;  ///< none where none is supported enough
   };
-  /// The best supported motion that a hypothesis leads to by which its scan leaves its pose.
-  /// Cost: each motion asks the hypotheses that may agree with it, found in a tree.
-  Elsewhere best_elsewhere() const;
+  /// Of the motions that a hypothesis leads to by which its scan leaves its pose, the one that is supported most, where
+  /// that is more than `least`. Cost: of the motions, those ask that have enough like them, and those alone.
+  Elsewhere best_elsewhere(double least) const;
 
   /// No less than the support of any motion that leaves no pair at its pose. Cost: the hypotheses of the pairs.
   double most_elsewhere() const;
@@ -45,13 +46,23 @@ class PairsAcross {
     Eigen::Vector3d middle_b;  // where it supposes the middle of b's points
   };
 
+  struct CellPromise {
+    std::size_t cell;
+    double most;  // no motion in it is supported by more
+  };
+
   const Eigen::Isometry3d& pose(std::size_t scan) const { return *component_.T_reference_scan[scan]; }
   Eigen::Isometry3d motion_by(const Hypothesis& h) const;
   bool is_elsewhere(const Hypothesis& h) const;
+  MotionCells cells(const std::vector<Eigen::Isometry3d>& motions) const;
+  // Those whose motions may be supported by more than `least`, the most promising first.
+  std::vector<CellPromise> promises(const MotionCells& cells, double least) const;
+  // Whether the middle of b's points lies where the hypothesis has it, nearly: tells most that disagree at little cost.
+  bool may_agree(const Hypothesis& h, const Eigen::Isometry3d& motion, const Eigen::Isometry3d& back) const;
   double support_of(const Pair& p, const Eigen::Isometry3d& motion) const;
-  // Of the hypotheses that `indices` names, ascending.
-  double support(const Eigen::Isometry3d& motion, const std::vector<std::size_t>& indices) const;
-  double most_support(const std::vector<std::size_t>& indices) const;
+  // Of the pairs that these hypotheses, ascending, belong to.
+  double support(const Eigen::Isometry3d& motion, const std::vector<std::size_t>& may_agree) const;
+  double most_support(const std::vector<std::size_t>& may_agree) const;
 
   const PairGraph& graph_;
   const Component& component_;

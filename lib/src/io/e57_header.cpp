@@ -89,7 +89,7 @@ class Parser {
           2 * (y * z + w * x), w * w - x * x - y * y + z * z;
     }
     const pugi::xml_node t = pose.child("translation");
-    T.topRightCorner<3, 1>() << value(t, "x"), value(t, "y"), value(t, "z");
+    T.topRightCorner<3, 1>() = Eigen::Vector3d(value(t, "x"), value(t, "y"), value(t, "z"));
     return T;
   }
 

@@ -117,7 +117,7 @@ class RobustPipeline {
   Inferred infer() {
     for (int round = 1;; ++round) {
       PairGraph graph = hypotheses_->graph(std::vector<bool>(size(), true), in_.options.inference);
-      std::vector<Component> components = likeliest_components(graph);
+      std::vector<Component> components = likeliest_components(graph, in_.context.num_threads);
       std::vector<std::vector<Cut>> cuts;
       for (const Component& component : components) {
         cuts.push_back(weakest_cuts(graph, component, in_.context.num_threads));
@@ -160,7 +160,7 @@ class RobustPipeline {
     std::vector<bool> left(size(), true);
     while (true) {
       const PairGraph graph = hypotheses_->graph(left, in_.options.inference);
-      std::vector<Component> likeliest = likeliest_components(graph);
+      std::vector<Component> likeliest = likeliest_components(graph, in_.context.num_threads);
       if (likeliest.empty()) break;
       std::size_t num_settled = 0;
       for (Component& component : likeliest) {

@@ -85,7 +85,7 @@ class Settling {
     for (int round = 0; round < kMaxRounds; ++round) {
       const Component before = out_.component;
       const double likelihood = log_likelihood(graph_, before);
-      improve(graph_, out_.component);
+      improve(graph_, out_.component, context_.num_threads);
       if (unmoved(before)) {
         out_.component = before;
         return;
@@ -199,7 +199,7 @@ class Settling {
       ++m.num_across;
       m.free_space_across += link_measurements_[k].free_space;
     }
-    if (!weakest->other_motion || weakest->other_support <= 0) return;
+    if (!weakest->other_motion) return;
     const Eigen::Isometry3d& T = *out_.component.T_reference_scan[scan];
     m.other_distance = rms_displacement(T.inverse() * *weakest->other_motion * T, scans_[scan].moments);
   }
