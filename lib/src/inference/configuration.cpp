@@ -193,11 +193,48 @@ std::vector<Start> strongest(const PairGraph& graph, const std::vector<bool>& op
   return starts;
 }
 
-std::size_t num_starts_for(const std::vector<bool>& open, const InferenceOptions& options) {
+// Of large sets two starts at least, or one that is known: no more than are affordable.
+std::size_t num_starts_for(const std::vector<bool>& open, bool has_known, const InferenceOptions& options) {
   const auto num_open = std::count(open.begin(), open.end(), true);
+  const std::ptrdiff_t least = has_known ? 1 : 2;
   if (num_open == 0) return 1;
-  const auto affordable = std::max<std::ptrdiff_t>(2, options.max_grown_scans / num_open);
+  const auto affordable = std::max<std::ptrdiff_t>(least, options.max_grown_scans / num_open);
   return static_cast<std::size_t>(std::min<std::ptrdiff_t>(options.max_starts, affordable));
+}
+
+// Of the known components the one that has most scans that are open, with those alone.
+std::optional<Component> known_among(const std::vector<Component>& known, const std::vector<bool>& open) {
+  std::optional<Component> best;
+  for (Component component : known) {
+    for (std::size_t i = 0; i < open.size(); ++i) {
+      if (!open[i]) component.T_reference_scan[i].reset();
+    }
+    const std::vector<std::size_t> members = component.members();
+    if (members.size() < 2 || (best && members.size() <= best->size())) continue;
+    if (!open[component.reference]) change_reference(component, members.front());
+    best = std::move(component);
+  }
+  return best;
+}
+
+void grow_and_improve(const PairGraph& graph, const std::vector<bool>& open, int num_threads, Component& component) {
+  grow(graph, open, component);
+  for (int round = 0; round < graph.options().max_sweeps; ++round) {
+    const std::size_t before = component.size();
+    improve(graph, component, num_threads);
+    grow(graph, open, component);
+    if (component.size() <= before) break;
+  }
+  while (drop_contradicted(graph, component)) keep_connected(graph, component);
+}
+
+// A start that an earlier configuration contains leads to the same one.
+bool is_contained(const PairGraph& graph, const std::vector<Component>& tried, const Start& start) {
+  const auto [a, b] = std::pair(start.pair->a, start.pair->b);
+  return std::any_of(tried.begin(), tried.end(), [&](const Component& c) {
+    return c.has(a) && c.has(b) &&
+           graph.same_pose(b, c.T_reference_scan[a]->inverse() * *c.T_reference_scan[b], start.hypothesis->T_a_b);
+  });
 }
 
 }  // namespace
@@ -231,7 +268,8 @@ void change_reference(Component& component, std::size_t reference) {
   component.reference = reference;
 }
 
-std::vector<Component> likeliest_components(const PairGraph& graph, int num_threads) {
+std::vector<Component> likeliest_components(const PairGraph& graph, const std::vector<Component>& known,
+                                            int num_threads) {
   const std::size_t n = graph.num_scans();
   std::vector<Component> out;
   std::vector<bool> open(n, true);
@@ -239,30 +277,21 @@ std::vector<Component> likeliest_components(const PairGraph& graph, int num_thre
     std::optional<Component> best;
     double most = 0;
     std::vector<Component> tried;
-    const std::size_t num_starts = num_starts_for(open, graph.options());
-    for (const Start& start : strongest(graph, open)) {
-      if (tried.size() == num_starts) break;
-      // A start that an earlier configuration contains leads to the same one.
-      const bool contained = std::any_of(tried.begin(), tried.end(), [&](const Component& c) {
-        return c.has(start.pair->a) && c.has(start.pair->b) &&
-               graph.same_pose(start.pair->b,
-                               c.T_reference_scan[start.pair->a]->inverse() * *c.T_reference_scan[start.pair->b],
-                               start.hypothesis->T_a_b);
-      });
-      if (contained) continue;
-      Component component = component_of_one(start.pair->a, n);
-      component.T_reference_scan[start.pair->b] = start.hypothesis->T_a_b;
-      grow(graph, open, component);
-      for (int round = 0; round < graph.options().max_sweeps; ++round) {
-        const std::size_t before = component.size();
-        improve(graph, component, num_threads);
-        grow(graph, open, component);
-        if (component.size() <= before) break;
-      }
-      while (drop_contradicted(graph, component)) keep_connected(graph, component);
+    const auto attempt = [&](Component component) {
+      grow_and_improve(graph, open, num_threads, component);
       const double likelihood = log_likelihood(graph, component);
       if (likelihood > most + kLeastGain) most = likelihood, best = component;
       tried.push_back(std::move(component));
+    };
+    std::optional<Component> from_known = known_among(known, open);
+    const std::size_t num_starts = num_starts_for(open, from_known.has_value(), graph.options());
+    if (from_known) attempt(std::move(*from_known));
+    for (const Start& start : strongest(graph, open)) {
+      if (tried.size() >= num_starts) break;
+      if (is_contained(graph, tried, start)) continue;
+      Component component = component_of_one(start.pair->a, n);
+      component.T_reference_scan[start.pair->b] = start.hypothesis->T_a_b;
+      attempt(std::move(component));
     }
     if (!best || best->size() < 2) break;
     change_reference(*best, best_supported(graph, *best));

@@ -29,10 +29,11 @@ void sort_without_repeats(std::vector<std::vector<std::size_t>>& parts) {
 
 }  // namespace
 
-Cut measure_cut(const PairGraph& graph, const Component& component, std::vector<std::size_t> moved) {
+Cut measure_cut(const PairGraph& graph, const Component& component, std::vector<std::size_t> moved, double most_lead) {
   const PairsAcross across(graph, component, moved);
-  const auto [other_support, other_motion] = across.best_elsewhere(0);
-  return {std::move(moved), across.support(Eigen::Isometry3d::Identity()), other_support, other_motion};
+  const double support = across.support(Eigen::Isometry3d::Identity());
+  const auto elsewhere = across.best_elsewhere(std::max(0.0, support - most_lead));
+  return {std::move(moved), support, elsewhere.motion ? elsewhere.support : 0, elsewhere.motion};
 }
 
 std::vector<std::size_t> frontier(const PairGraph& graph, const Component& component, const Cut& cut) {
@@ -96,7 +97,7 @@ std::vector<std::vector<std::size_t>> weakest_parts(const PairGraph& graph, cons
   return parts;
 }
 
-std::vector<Cut> weakest_cuts(const PairGraph& graph, const Component& component, int num_threads) {
+std::vector<Cut> weakest_cuts(const PairGraph& graph, const Component& component, int num_threads, double most_lead) {
   auto parts = weakest_parts(graph, component);
   for (const std::size_t i : component.members()) {
     if (i != component.reference) parts.push_back({i});
@@ -104,7 +105,7 @@ std::vector<Cut> weakest_cuts(const PairGraph& graph, const Component& component
   sort_without_repeats(parts);
   std::vector<Cut> cuts(parts.size());
   parallel_for(num_threads, parts.size(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) cuts[k] = measure_cut(graph, component, std::move(parts[k]));
+    for (std::size_t k = begin; k < end; ++k) cuts[k] = measure_cut(graph, component, std::move(parts[k]), most_lead);
   });
   return cuts;
 }

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -27,7 +28,9 @@ struct Cut {
 };
 
 /// The cut between `moved` and the other members.
-Cut measure_cut(const PairGraph& graph, const Component& component, std::vector<std::size_t> moved);
+/// @param most_lead  >= 0; other places that leave a larger lead are not looked for
+Cut measure_cut(const PairGraph& graph, const Component& component, std::vector<std::size_t> moved,
+                double most_lead = std::numeric_limits<double>::infinity());
 
 /// The parts that minimum cuts of the pairs' support leave, without the reference, each once: for any two members the
 /// weakest hold between them is among them. Cost: minimum_cuts().
@@ -35,7 +38,9 @@ std::vector<std::vector<std::size_t>> weakest_parts(const PairGraph& graph, cons
 
 /// The cuts of those parts and of every member by itself, each once; the same for any number of threads. Cost:
 /// minimum_cuts(), and PairsAcross::best_elsewhere() for each.
-std::vector<Cut> weakest_cuts(const PairGraph& graph, const Component& component, int num_threads = 1);
+/// @param most_lead  as in measure_cut()
+std::vector<Cut> weakest_cuts(const PairGraph& graph, const Component& component, int num_threads = 1,
+                              double most_lead = std::numeric_limits<double>::infinity());
 
 /// Those of the moved that pairs across the cut hold where they are: there, more may be found out. All of them where
 /// none does.

@@ -32,8 +32,9 @@ struct Inferred {
   std::vector<std::vector<Cut>> cuts;  // the weakest of each component
 };
 
-constexpr int kMaxLearnt = 4;   // rounds: what the set's constant is, and which poses are likeliest with it
-constexpr int kMaxImplied = 3;  // rounds: what they show may move scans, which implies other poses
+constexpr double kMostLead = 12;  // what is less likely by so much is asked by nobody before poses are decided on
+constexpr int kMaxLearnt = 4;     // rounds: what the set's constant is, and which poses are likeliest with it
+constexpr int kMaxImplied = 3;    // rounds: what they show may move scans, which implies other poses
 
 class RobustPipeline {
  public:
@@ -101,9 +102,9 @@ class RobustPipeline {
     std::vector<std::size_t> groups(size());
     std::iota(groups.begin(), groups.end(), std::size_t{0});
     while (search.extend(wanted, groups, *hypotheses_)) {
-      Inferred now = infer();
+      Inferred now = infer({});
       for (int round = 0; round < kMaxImplied && search.try_implied(implied(now, search), *hypotheses_); ++round)
-        now = infer();
+        now = infer(std::move(now.components));
       wanted = without_clear_place(now);
       groups = clear_groups(now.components, now.cuts, kLeadToRest, size());
       in_.context.debug(std::to_string(std::count(wanted.begin(), wanted.end(), true)) + " of " +
@@ -114,18 +115,20 @@ class RobustPipeline {
     search.try_guesses(T_init_, *hypotheses_);  // they place what the search did not
   }
 
-  Inferred infer() {
+  // From the `known` components, where there are any: what changes them since is little.
+  Inferred infer(std::vector<Component> known) {
     for (int round = 1;; ++round) {
       PairGraph graph = hypotheses_->graph(std::vector<bool>(size(), true), in_.options.inference);
-      std::vector<Component> components = likeliest_components(graph, in_.context.num_threads);
+      std::vector<Component> components = likeliest_components(graph, known, in_.context.num_threads);
       std::vector<std::vector<Cut>> cuts;
       for (const Component& component : components) {
-        cuts.push_back(weakest_cuts(graph, component, in_.context.num_threads));
+        cuts.push_back(weakest_cuts(graph, component, in_.context.num_threads, kMostLead));
       }
       if (round == kMaxLearnt || !hypotheses_->learn_constant(components, cuts, in_.options.inference.set_spread)) {
         return {std::move(graph), std::move(components), std::move(cuts)};
       }
       hypotheses_->score();
+      known = std::move(components);
     }
   }
 
@@ -160,7 +163,7 @@ class RobustPipeline {
     std::vector<bool> left(size(), true);
     while (true) {
       const PairGraph graph = hypotheses_->graph(left, in_.options.inference);
-      std::vector<Component> likeliest = likeliest_components(graph, in_.context.num_threads);
+      std::vector<Component> likeliest = likeliest_components(graph, {}, in_.context.num_threads);
       if (likeliest.empty()) break;
       std::size_t num_settled = 0;
       for (Component& component : likeliest) {
