@@ -193,10 +193,8 @@ std::vector<Start> strongest(const PairGraph& graph, const std::vector<bool>& op
   return starts;
 }
 
-// Of large sets two starts at least, or one that is known: no more than are affordable.
-std::size_t num_starts_for(const std::vector<bool>& open, bool has_known, const InferenceOptions& options) {
+std::size_t num_starts_for(const std::vector<bool>& open, std::ptrdiff_t least, const InferenceOptions& options) {
   const auto num_open = std::count(open.begin(), open.end(), true);
-  const std::ptrdiff_t least = has_known ? 1 : 2;
   if (num_open == 0) return 1;
   const auto affordable = std::max<std::ptrdiff_t>(least, options.max_grown_scans / num_open);
   return static_cast<std::size_t>(std::min<std::ptrdiff_t>(options.max_starts, affordable));
@@ -269,7 +267,7 @@ void change_reference(Component& component, std::size_t reference) {
 }
 
 std::vector<Component> likeliest_components(const PairGraph& graph, const std::vector<Component>& known,
-                                            int num_threads) {
+                                            int least_starts, int num_threads) {
   const std::size_t n = graph.num_scans();
   std::vector<Component> out;
   std::vector<bool> open(n, true);
@@ -284,7 +282,7 @@ std::vector<Component> likeliest_components(const PairGraph& graph, const std::v
       tried.push_back(std::move(component));
     };
     std::optional<Component> from_known = known_among(known, open);
-    const std::size_t num_starts = num_starts_for(open, from_known.has_value(), graph.options());
+    const std::size_t num_starts = num_starts_for(open, least_starts, graph.options());
     if (from_known) attempt(std::move(*from_known));
     for (const Start& start : strongest(graph, open)) {
       if (tried.size() >= num_starts) break;

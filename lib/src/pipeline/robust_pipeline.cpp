@@ -33,6 +33,7 @@ struct Inferred {
 };
 
 constexpr double kMostLead = 12;  // what is less likely by so much is asked by nobody before poses are decided on
+constexpr int kLeastStarts = 2;   // of large sets, where there are other hypotheses
 constexpr int kMaxLearnt = 4;     // rounds: what the set's constant is, and which poses are likeliest with it
 constexpr int kMaxImplied = 3;    // rounds: what they show may move scans, which implies other poses
 
@@ -102,9 +103,9 @@ class RobustPipeline {
     std::vector<std::size_t> groups(size());
     std::iota(groups.begin(), groups.end(), std::size_t{0});
     while (search.extend(wanted, groups, *hypotheses_)) {
-      Inferred now = infer({});
+      Inferred now = infer(kLeastStarts);
       for (int round = 0; round < kMaxImplied && search.try_implied(implied(now, search), *hypotheses_); ++round)
-        now = infer(std::move(now.components));
+        now = infer(1);
       wanted = without_clear_place(now);
       groups = clear_groups(now.components, now.cuts, kLeadToRest, size());
       in_.context.debug(std::to_string(std::count(wanted.begin(), wanted.end(), true)) + " of " +
@@ -115,11 +116,10 @@ class RobustPipeline {
     search.try_guesses(T_init_, *hypotheses_);  // they place what the search did not
   }
 
-  // From the `known` components, where there are any: what changes them since is little.
-  Inferred infer(std::vector<Component> known) {
-    for (int round = 1;; ++round) {
+  Inferred infer(int least_starts) {
+    for (int round = 1;; ++round, least_starts = 1) {
       PairGraph graph = hypotheses_->graph(std::vector<bool>(size(), true), in_.options.inference);
-      std::vector<Component> components = likeliest_components(graph, known, in_.context.num_threads);
+      std::vector<Component> components = components_of(graph, least_starts);
       std::vector<std::vector<Cut>> cuts;
       for (const Component& component : components) {
         cuts.push_back(weakest_cuts(graph, component, in_.context.num_threads, kMostLead));
@@ -128,8 +128,13 @@ class RobustPipeline {
         return {std::move(graph), std::move(components), std::move(cuts)};
       }
       hypotheses_->score();
-      known = std::move(components);
     }
+  }
+
+  // Beginning with the likeliest of last time: what hypotheses since then change is little.
+  std::vector<Component> components_of(const PairGraph& graph, int least_starts) {
+    known_ = likeliest_components(graph, known_, least_starts, in_.context.num_threads);
+    return known_;
   }
 
   static std::vector<ImpliedPose> implied(const Inferred& now, const PairSearch& search) {
@@ -163,7 +168,7 @@ class RobustPipeline {
     std::vector<bool> left(size(), true);
     while (true) {
       const PairGraph graph = hypotheses_->graph(left, in_.options.inference);
-      std::vector<Component> likeliest = likeliest_components(graph, {}, in_.context.num_threads);
+      std::vector<Component> likeliest = components_of(graph, kLeastStarts);
       if (likeliest.empty()) break;
       std::size_t num_settled = 0;
       for (Component& component : likeliest) {
@@ -201,6 +206,7 @@ class RobustPipeline {
         ++num_settled;
       }
       if (num_settled == 0) break;
+      known_.clear();  // with the scans that are settled
     }
   }
 
@@ -340,6 +346,7 @@ class RobustPipeline {
   InitialPoses T_init_;  // common frame of the initial poses <- local frame
   std::vector<PreparedScan> scans_;
   std::optional<HypothesisSet> hypotheses_;
+  std::vector<Component> known_;
   std::vector<SettledComponent> settled_;
   SurveyPlacement placement_;
 };
