@@ -106,6 +106,22 @@ TEST(AdjustPoses, SaysWhatItsProgramsDid) {
   EXPECT_LT(worst_error_m(s, poses), 0.3 * worst_error_m(s, disturbed(s, 0.02, 0.1, 2)));
 }
 
+// Sets of hundreds of scans: here by the exact solver, which takes few matches.
+TEST(AdjustPoses, LeavesProgramsOutWhoseLinksHaveTooFewMatches) {
+  const PreparedScene s = scene({.num_scans = 2, .points_per_scan = 2000}, 2);
+  const auto start = disturbed(s, 0.02, 0.1, 2);
+  AdjustmentOptions options;
+  options.steps = 0;
+  L1FitOptions exact;
+  exact.lp.solver = LpSolver::kCgal;
+  auto poses = start;
+  const AdjustmentRecord record =
+      adjust_poses(s.scans, ScanPairs(101, {0, 1}), 0, s.resolutions, options, exact, {}, poses);
+  EXPECT_EQ(record.lp_status, LpStatus::kSizeLimit);
+  EXPECT_EQ(record.lp.num_programs, 0);
+  EXPECT_TRUE(poses[1].isApprox(start[1], 0));
+}
+
 TEST(AdjustPoses, AScanWithoutLinksStays) {
   const PreparedScene s = scene({.num_scans = 3, .points_per_scan = 3000}, 3);
   auto poses = disturbed(s, 0.02, 0.1, 3);

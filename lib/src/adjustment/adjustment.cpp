@@ -19,6 +19,9 @@ namespace {
 constexpr std::size_t kLpMatchesOfLink = 150;
 constexpr std::size_t kLpMatches = 8'000;
 constexpr std::size_t kLpMatchesExact = 600;
+// Two links of a pair, an equation a match: fewer do not determine the six unknowns of the pair's pose, and the median
+// of a link says nothing.
+constexpr std::size_t kLeastLpMatchesOfLink = 3;
 
 constexpr std::size_t kPairsOfScan = 8;
 // Of the noise of matches: poses of a thousand matches are known to a thirtieth of it.
@@ -26,7 +29,7 @@ constexpr double kSettledMove = 0.01;
 
 std::size_t lp_matches_of_link(std::size_t num_links, LpSolver solver) {
   const std::size_t all = solver == LpSolver::kCgal ? kLpMatchesExact : kLpMatches;
-  return std::clamp<std::size_t>(all / std::max<std::size_t>(1, num_links), 1, kLpMatchesOfLink);
+  return std::min(all / std::max<std::size_t>(1, num_links), kLpMatchesOfLink);
 }
 
 class Adjustment {
@@ -42,6 +45,10 @@ class Adjustment {
 
   void lp_step(double gate_m) {
     const std::size_t most = lp_matches_of_link(2 * pairs_.size(), lp_.lp.solver);
+    if (most < kLeastLpMatchesOfLink) {
+      record_.lp_status = LpStatus::kSizeLimit;  // from some 250 scans on
+      return;
+    }
     const std::vector<JointLink> links = thinned(match(gate_m), most);
     const std::vector<TwistFrame> frames = scan_frames(scans_, T_reference_scan_);
     JointLpOptions lp_options;
