@@ -12,7 +12,7 @@ namespace tcm_icp::test {
 inline const Words kSmall{"--sampling.working-points", "20000", "--sampling.coarse-voxels", "4000",
                           "--sampling.fine-voxels",    "10000"};
 
-class CliTest : public testing::Test {
+class CliTest : public ::testing::Test {
  protected:
   RunResult run(const Words& arguments, RunSettings settings = {}) const {
     settings.folder = folder_.path();

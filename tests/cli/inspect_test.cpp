@@ -14,7 +14,7 @@ using Json = nlohmann::json;
 
 constexpr int kNumTownScans = 6;
 
-const Words kTown = town_scans() + Words{"--init", town_file("initial_poses.json").string()};
+const Words kTownAndGuess = town_scans() + Words{"--init", town_file("initial_poses.json").string()};
 const Words kFirst = town_scans({0});
 
 class Inspect : public CliTest {
@@ -39,19 +39,19 @@ void expect_symmetric(const Json& matrix) {
 }
 
 TEST_F(Inspect, MeasuresEveryPairBothWaysAlike) {
-  const Json json = inspect(kTown);
+  const Json json = inspect(kTownAndGuess);
   expect_symmetric(json["tcm"]["paper_m4"]);
   expect_symmetric(json["tcm"]["robust_m2"]);
 }
 
 // Stations follow a path, so of all pairs the two ends of it share least; the guess is near enough to see that.
 TEST_F(Inspect, FindsTheNearestStationMoreCompatibleThanTheFarthest) {
-  const Json robust = inspect(kTown)["tcm"]["robust_m2"];
+  const Json robust = inspect(kTownAndGuess)["tcm"]["robust_m2"];
   EXPECT_LT(robust[0][1].get<double>(), robust[0][5].get<double>() / 2);
 }
 
 TEST_F(Inspect, CountsWhatTheFilesHold) {
-  const Json json = inspect(kTown);
+  const Json json = inspect(kTownAndGuess);
   ASSERT_EQ(json["scans"].size(), kNumTownScans);
   for (int i = 0; i < kNumTownScans; ++i) {
     const Json& scan = json["scans"][static_cast<std::size_t>(i)];
@@ -75,9 +75,9 @@ TEST_F(Inspect, CountsWhatTheFilesHold) {
 
 TEST_F(Inspect, BuildsTheGraphAndReferenceOfThePaperProfile) {
   // Of the profile that compares scans where they lie; robust has its graph from links.
-  const Json graph = inspect(kTown + Words{"--profile", "paper"})["graph"];
+  const Json graph = inspect(kTownAndGuess + Words{"--profile", "paper"})["graph"];
   const RunResult outcome =
-      run(Words{"register"} + kTown + Words{"--profile", "paper", "--refinement", "none", "--out", "paper"});
+      run(Words{"register"} + kTownAndGuess + Words{"--profile", "paper", "--refinement", "none", "--out", "paper"});
   ASSERT_TRUE(outcome.exit_code == 0 || outcome.exit_code == 3) << outcome.err;
   const Json report = read_json(folder() / "paper" / "report.json");
   EXPECT_EQ(report["options"]["paper"]["matches"], "mutual");
@@ -86,16 +86,16 @@ TEST_F(Inspect, BuildsTheGraphAndReferenceOfThePaperProfile) {
 }
 
 TEST_F(Inspect, SaysTheSameWhateverTheNumberOfThreads) {
-  Json one = inspect(kTown + Words{"--threads", "1"}), four = inspect(kTown + Words{"--threads", "4"});
+  Json one = inspect(kTownAndGuess + Words{"--threads", "1"}), four = inspect(kTownAndGuess + Words{"--threads", "4"});
   one.erase("command_line");
   four.erase("command_line");
   EXPECT_EQ(one, four);
 }
 
 TEST_F(Inspect, PrintsTablesWithTheSameReference) {
-  const RunResult outcome = run(Words{"inspect"} + kTown);
+  const RunResult outcome = run(Words{"inspect"} + kTownAndGuess);
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  const std::string reference = inspect(kTown)["graph"]["reference"];
+  const std::string reference = inspect(kTownAndGuess)["graph"]["reference"];
   EXPECT_NE(outcome.out.find("reference: " + reference + "\n"), std::string::npos) << outcome.out;
   EXPECT_NE(outcome.out.find("TCM as printed"), std::string::npos);
   EXPECT_NE(outcome.out.find("26231"), std::string::npos) << "points of 000.ply";

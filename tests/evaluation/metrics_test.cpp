@@ -18,7 +18,7 @@ using Eigen::Vector3d;
 constexpr double kDegree = std::numbers::pi / 180;
 
 /// Large turns about several axes: a reversed product would show.
-Isometry3d some_pose(int i) {
+Isometry3d turned_pose(int i) {
   return Translation3d(10 * i, -7 * i, 3) * AngleAxisd(0.9 + i, Vector3d(1, 2, 3).normalized()) *
          AngleAxisd(1.7 * i, Vector3d::UnitX());
 }
@@ -34,30 +34,30 @@ Points cube(const Vector3d& centre) {
 
 Truth truth_of(int num_scans) {
   Truth truth;
-  for (int i = 0; i < num_scans; ++i) truth.scans.push_back({std::to_string(i) + ".ply", some_pose(i), 0});
+  for (int i = 0; i < num_scans; ++i) truth.scans.push_back({std::to_string(i) + ".ply", turned_pose(i), 0});
   truth.tolerance = {1.0, 0.1};
   return truth;
 }
 
 /// The true poses, as seen from another common frame.
 std::vector<std::optional<Isometry3d>> exact_estimates(const Truth& truth) {
-  const Isometry3d T_other_world = some_pose(7);
+  const Isometry3d T_other_world = turned_pose(7);
   std::vector<std::optional<Isometry3d>> estimates;
   for (const auto& scan : truth.scans) estimates.push_back(T_other_world * scan.T_world_scan);
   return estimates;
 }
 
 TEST(PoseErrorTest, IsZeroForTruePosesInAnyCommonFrame) {
-  const Isometry3d T_other_world = some_pose(5);
-  const PoseError error = pose_error(some_pose(1), some_pose(2), T_other_world * some_pose(1),
-                                     T_other_world * some_pose(2), cube({3, 4, 5}));
+  const Isometry3d T_other_world = turned_pose(5);
+  const PoseError error = pose_error(turned_pose(1), turned_pose(2), T_other_world * turned_pose(1),
+                                     T_other_world * turned_pose(2), cube({3, 4, 5}));
   EXPECT_LT(error.rotation_deg, 1e-9);
   EXPECT_LT(error.rmse_m, 1e-9);
 }
 
 TEST(PoseErrorTest, OfAShiftIsItsLength) {
-  const PoseError error = pose_error(some_pose(1), some_pose(2), some_pose(1),
-                                     some_pose(2) * Translation3d(0.3, 0, 0.4), cube({100, 0, 0}));
+  const PoseError error = pose_error(turned_pose(1), turned_pose(2), turned_pose(1),
+                                     turned_pose(2) * Translation3d(0.3, 0, 0.4), cube({100, 0, 0}));
   EXPECT_NEAR(error.rotation_deg, 0, 1e-9);
   EXPECT_NEAR(error.rmse_m, 0.5, 1e-9);
   EXPECT_NEAR(error.translation_m, 0.5, 1e-9);
@@ -67,27 +67,28 @@ TEST(PoseErrorTest, TranslationIsThatOfTheFilesOrigin) {
   // A turn about a place 10 m from the origin moves the origin by its chord, 10 m at 60 degrees.
   const Isometry3d about =
       Translation3d(10, 0, 0) * AngleAxisd(60 * kDegree, Vector3d::UnitZ()) * Translation3d(-10, 0, 0);
-  const PoseError error = pose_error(some_pose(1), some_pose(2), some_pose(1), some_pose(2) * about, cube({10, 0, 0}));
+  const PoseError error =
+      pose_error(turned_pose(1), turned_pose(2), turned_pose(1), turned_pose(2) * about, cube({10, 0, 0}));
   EXPECT_NEAR(error.translation_m, 10, 1e-9);
   EXPECT_NEAR(error.rmse_m, std::sqrt(2.0), 1e-9);
 }
 
 TEST(PoseErrorTest, OfATurnAboutZMovesEachPointByItsChord) {
   // Corners of the cube lie sqrt(2) from the z axis; 60 degrees make a chord as long as the radius.
-  const PoseError error = pose_error(some_pose(1), some_pose(2), some_pose(1),
-                                     some_pose(2) * AngleAxisd(60 * kDegree, Vector3d::UnitZ()), cube({0, 0, 9}));
+  const PoseError error = pose_error(turned_pose(1), turned_pose(2), turned_pose(1),
+                                     turned_pose(2) * AngleAxisd(60 * kDegree, Vector3d::UnitZ()), cube({0, 0, 9}));
   EXPECT_NEAR(error.rotation_deg, 60, 1e-9);
   EXPECT_NEAR(error.rmse_m, std::sqrt(2.0), 1e-9);
 }
 
 TEST(PoseErrorTest, HalfATurnKeepsItsPrecision) {
-  const PoseError error = pose_error(some_pose(1), some_pose(2), some_pose(1),
-                                     some_pose(2) * AngleAxisd(180 * kDegree, Vector3d::UnitY()), cube({0, 0, 0}));
+  const PoseError error = pose_error(turned_pose(1), turned_pose(2), turned_pose(1),
+                                     turned_pose(2) * AngleAxisd(180 * kDegree, Vector3d::UnitY()), cube({0, 0, 0}));
   EXPECT_NEAR(error.rotation_deg, 180, 1e-6);
 }
 
 TEST(PoseErrorTest, HasNoRmseWithoutPoints) {
-  const PoseError error = pose_error(some_pose(1), some_pose(2), some_pose(1), some_pose(2), {});
+  const PoseError error = pose_error(turned_pose(1), turned_pose(2), turned_pose(1), turned_pose(2), {});
   EXPECT_TRUE(std::isnan(error.rmse_m));
   EXPECT_FALSE(error.within({1, 1}));
 }

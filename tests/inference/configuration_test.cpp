@@ -15,7 +15,7 @@ using Eigen::Isometry3d;
 using testing::HypothesisWorld;
 using testing::kSame_m;
 
-constexpr double kRounding = 1e-9;
+using testing::kRounding;
 
 class ConfigurationTest : public ::testing::Test {
  protected:

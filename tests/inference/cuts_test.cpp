@@ -16,7 +16,7 @@ using Eigen::Isometry3d;
 using testing::HypothesisWorld;
 using Scans = std::vector<std::size_t>;
 
-constexpr double kRounding = 1e-9;
+using testing::kRounding;
 
 // Of log(1 + e^(l + 3)) - 3 against l, from l = 3 on.
 constexpr double kOfLogOdds = 0.0025;

@@ -15,6 +15,9 @@ namespace tcm_icp::testing {
 
 /// Poses of a scan less than this apart are one.
 constexpr double kSame_m = 1;
+constexpr double kRounding = 1e-9;
+
+inline double between(double low, double high, Rng& rng) { return low + (high - low) * uniform01(rng); }
 
 /// Scans of points in a cube of 20 m, each in a frame of its own; tests add what is known of pairs.
 class HypothesisWorld {

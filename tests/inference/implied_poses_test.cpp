@@ -13,7 +13,9 @@ namespace {
 using testing::HypothesisWorld;
 using testing::kSame_m;
 
-constexpr double kClearLead = 6, kRounding = 1e-9;
+using testing::kRounding;
+
+constexpr double kClearLead = 6;
 
 bool everywhere(std::size_t, std::size_t, const Eigen::Isometry3d&) { return true; }
 

@@ -12,10 +12,9 @@ namespace {
 
 using Nodes = std::vector<std::size_t>;
 
-constexpr double kRounding = 1e-9;
+using testing::between;
+using testing::kRounding;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-double between(double low, double high, Rng& rng) { return low + (high - low) * uniform01(rng); }
 
 double weight_across(const std::vector<WeightedEdge>& edges, const std::vector<bool>& side) {
   double sum = 0;

@@ -10,9 +10,10 @@ namespace {
 using Eigen::Isometry3d;
 using testing::HypothesisWorld;
 
-constexpr double kRounding = 1e-9, kNothing = -1e300;
+using testing::between;
+using testing::kRounding;
 
-double between(double low, double high, Rng& rng) { return low + (high - low) * uniform01(rng); }
+constexpr double kNothing = -1e300;
 
 // Scans 0 to 4 against 5 to 9, whose pairs across have right, wrong, shared and lonely other places.
 class PairsAcrossTest : public ::testing::Test {

@@ -27,7 +27,7 @@ fs::path formats_folder() {
   return {};
 }
 
-class ForeignFiles : public testing::Test {
+class ForeignFiles : public ::testing::Test {
  protected:
   void SetUp() override {
     if (formats_folder().empty()) GTEST_SKIP() << "there is no ../shared/formats with other programs' files";

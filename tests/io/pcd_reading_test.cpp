@@ -40,10 +40,10 @@ std::string with_sizes(const std::string& packed_bytes, std::size_t unpacked) {
   return joined(static_cast<std::uint32_t>(packed_bytes.size()), static_cast<std::uint32_t>(unpacked)) + packed_bytes;
 }
 
-const Points kPoints{{1, 2, 3}, {-4.5, 5, 6}};
+const Points kTwoPoints{{1, 2, 3}, {-4.5, 5, 6}};
 
 void expect_all(const WholeScan& scan) {
-  EXPECT_EQ(scan.block.points, kPoints);
+  EXPECT_EQ(scan.block.points, kTwoPoints);
   EXPECT_EQ(attribute_of<std::uint16_t>(scan, 1, "ring"), 7);
   EXPECT_EQ(attribute_of<float>(scan, 0, "normal_0"), 0.5F);
   EXPECT_EQ(attribute_of<float>(scan, 1, "normal_1"), -1);
@@ -65,7 +65,7 @@ TEST(PcdReading, EveryKindOfDataGivesTheSame) {
   const auto compressed = folder.write("packed.pcd", header(fields, sizes, types, counts, 2, "binary_compressed") +
                                                          with_sizes(packed(columns), columns.size()));
   expect_all(read_whole(compressed));
-  EXPECT_EQ(read_whole(compressed, ReadAttributes::kNo).block.points, kPoints);
+  EXPECT_EQ(read_whole(compressed, ReadAttributes::kNo).block.points, kTwoPoints);
 }
 
 TEST(PcdReading, PackedDataRepeatWhatStoodBefore) {

@@ -18,7 +18,7 @@ using testing::kNoise_m;
 using testing::kVoxel_m;
 using Pairs = std::vector<std::pair<std::size_t, std::size_t>>;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+using testing::kInfinity;
 constexpr double kSetSpread = 1;
 
 // Four scans of one place, each in its own frame.

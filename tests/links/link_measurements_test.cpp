@@ -19,7 +19,7 @@ using testing::scaled_link;
 using testing::terrible_link;
 using testing::usual_link;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+using testing::kInfinity;
 
 SetReference usual_set() { return SetReference::of(kVoxel_m, kNoise_m, {usual_link(), terrible_link()}); }
 

@@ -1,11 +1,14 @@
 #pragma once
 // What pairs of scans may show, without scans.
 
+#include <limits>
+
 #include "tcm_icp/links/link_measurements.hpp"
 
 namespace tcm_icp::testing {
 
 constexpr double kVoxel_m = 0.1, kNoise_m = 0.005;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// As right poses of a building usually have it.
 inline LinkMeasurements usual_link() {

@@ -15,7 +15,7 @@ std::vector<SampledScan> scans_of(const std::vector<std::string>& digests) {
   return scans;
 }
 
-class KeepResolutions : public testing::Test {
+class KeepResolutions : public ::testing::Test {
  protected:
   KeptSet keep(const std::vector<std::string>& digests, double coarse_m, const SamplingOptions& options = {}) const {
     const StepStore store(folder_.path() / "work");

@@ -17,12 +17,12 @@ namespace {
 using test::TempFolder;
 using testing::SceneFiles;
 
-const testing::SyntheticSceneOptions kRubble{
+const testing::SyntheticSceneOptions kRubbleScans{
     .shape = testing::SyntheticShape::kRubble, .num_scans = 3, .points_per_scan = 6000, .range_m = 16, .noise_m = 0.01};
 
-SceneFiles rubble(const TempFolder& folder) { return testing::write_scene(folder.path(), kRubble, 0.12, 1, 1); }
+SceneFiles rubble(const TempFolder& folder) { return testing::write_scene(folder.path(), kRubbleScans, 0.12, 1, 1); }
 
-RegistrationOptions likely() {
+RegistrationOptions likely_options() {
   RegistrationOptions options;
   options.confidence = 0.5;
   return options;
@@ -64,9 +64,9 @@ class EveryOther : public ScanSource {
 TEST(RegisterScans, CloudsInMemoryFilesAndOwnSourcesGiveTheSameBits) {
   const TempFolder folder;
   const SceneFiles files = rubble(folder);
-  const Registration from_files = register_scans(files.paths, likely());
+  const Registration from_files = register_scans(files.paths, likely_options());
   ASSERT_TRUE(from_files.all_registered());
-  const Registration from_memory = register_scans(files.scene.scans, likely());
+  const Registration from_memory = register_scans(files.scene.scans, likely_options());
   expect_same_bits(from_files, from_memory);
   EXPECT_EQ(from_files.scans[1].name, "1.ply");
   EXPECT_EQ(from_memory.scans[1].name, "cloud_1");
@@ -78,13 +78,13 @@ TEST(RegisterScans, CloudsInMemoryFilesAndOwnSourcesGiveTheSameBits) {
   }
   RunContext two_threads;
   two_threads.num_threads = 2;
-  expect_same_bits(from_files, register_scans(sources, likely(), two_threads));
+  expect_same_bits(from_files, register_scans(sources, likely_options(), two_threads));
 }
 
 TEST(RegisterScans, SaysWhatThePipelineSays) {
   const TempFolder folder;
   const SceneFiles files = rubble(folder);
-  const Registration registration = register_scans(files.paths, likely());
+  const Registration registration = register_scans(files.paths, likely_options());
   PipelineOptions options;
   options.decision.confidence = 0.5;
   const PipelineResult result = Pipeline(options).run(files.paths, InitialPoses(3), {});
@@ -94,7 +94,7 @@ TEST(RegisterScans, SaysWhatThePipelineSays) {
     EXPECT_TRUE(scan.T_reference_scan.matrix() == result.poses[i].T_reference_scan.matrix());
     EXPECT_EQ(scan.verdict, result.poses[i].verdict);
     EXPECT_EQ(scan.text, result.poses[i].reason);
-    EXPECT_EQ(scan.num_points, kRubble.points_per_scan);
+    EXPECT_EQ(scan.num_points, kRubbleScans.points_per_scan);
     const bool is_reference = i == registration.reference;
     EXPECT_EQ(scan.status, is_reference ? ScanStatus::kReference : ScanStatus::kRegistered);
     EXPECT_EQ(scan.reason, is_reference ? Reason::kReference : Reason::kAccepted);
@@ -111,10 +111,10 @@ TEST(RegisterScans, AScanOfAnotherPlaceIsUnregisteredWithItsReason) {
   const TempFolder folder;
   SceneFiles files = rubble(folder);
   Rng rng = make_stream(9, "elsewhere");
-  testing::SyntheticSceneOptions options = kRubble;
+  testing::SyntheticSceneOptions options = kRubbleScans;
   options.num_scans = 1;
   files.scene.scans.push_back(testing::synthetic_scene(options, rng).scans[0]);
-  const Registration registration = register_scans(files.scene.scans, likely());
+  const Registration registration = register_scans(files.scene.scans, likely_options());
   const RegisteredScan& foreign = registration.scans[3];
   EXPECT_FALSE(registration.all_registered());
   EXPECT_EQ(foreign.status, ScanStatus::kUnregistered);
@@ -134,7 +134,7 @@ TEST(RegisterScans, ProgressIsReportedAndStopsIt) {
     stages.emplace(p.stage);
     return stages.size() < 3 ? Continue::kYes : Continue::kStop;
   };
-  EXPECT_THROW(register_scans(files.scene.scans, likely(), context), Cancelled);
+  EXPECT_THROW(register_scans(files.scene.scans, likely_options(), context), Cancelled);
   EXPECT_EQ(stages.size(), 3u);
   EXPECT_TRUE(stages.contains("reading"));
 }
@@ -144,16 +144,16 @@ TEST(RegisterScans, WritesTheFolderOfAResultFromMemory) {
   const SceneFiles files = rubble(folder);
   std::vector<ScanInput> scans;
   for (const auto& cloud : files.scene.scans) scans.push_back(scan_in_memory(std::to_string(scans.size()), cloud));
-  const Registration registration = register_scans(scans, likely());
+  const Registration registration = register_scans(scans, likely_options());
   const auto out = folder.path() / "out";
-  write_registration({out, false, {.each = true}}, scans, registration, likely());
+  write_registration({out, false, {.each = true}}, scans, registration, likely_options());
   const PoseFile poses = read_pose_file(out / "poses.json");
   ASSERT_EQ(poses.scans.size(), 3u);
   EXPECT_TRUE(poses.scans[2].T_reference_scan.matrix() == registration.scans[2].T_reference_scan.matrix());
   EXPECT_EQ(poses.scans[2].file, "2");
   EXPECT_TRUE(std::filesystem::exists(out / "report.html"));
   EXPECT_TRUE(std::filesystem::exists(out / "scans" / "2.ply"));
-  EXPECT_GT(test::read_whole(out / "registered.ply").block.size(), 2 * kRubble.points_per_scan);
+  EXPECT_GT(test::read_whole(out / "registered.ply").block.size(), 2 * kRubbleScans.points_per_scan);
   EXPECT_THROW(write_registration({out, false, {}}, scans, registration), OutputError);
   EXPECT_THROW(write_registration({folder.path() / "empty", false, {}}, scans, {}), InvalidOptions);
 }

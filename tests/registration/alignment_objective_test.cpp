@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "registration/level_of.hpp"
 #include "support/synthetic_scene.hpp"
 #include "tcm_icp/core/error.hpp"
 
@@ -9,18 +10,17 @@ namespace tcm_icp {
 namespace {
 
 using Eigen::Isometry3d;
+using testing::level_of;
 
 constexpr double kScale = 0.2, kGate = 2;  // [m]
 
-PyramidLevel level_of(const Cloud& cloud) { return {0.1, cloud, NeighborIndex(cloud.points)}; }
-
-struct Case {
+struct ObjectiveCase {
   Cloud source;
   PyramidLevel target;
   Isometry3d truth, off;
 };
 
-Case make_case(std::uint64_t seed) {
+ObjectiveCase objective_case(std::uint64_t seed) {
   Rng rng = make_stream(seed, "alignment_objective_test");
   const testing::SyntheticScene scene = testing::synthetic_scene({.points_per_scan = 1500, .noise_m = 0.02}, rng);
   const Isometry3d truth = scene.T_target_source(0, 1);
@@ -29,14 +29,14 @@ Case make_case(std::uint64_t seed) {
 }
 
 TEST(AlignmentObjective, IsZeroForTheSameCloudAndOneOutOfReach) {
-  const Case c = make_case(1);
+  const ObjectiveCase c = objective_case(1);
   const AlignmentObjective objective(c.target.cloud, c.target, kScale, kGate);
   EXPECT_EQ(objective.cost(Isometry3d::Identity()), 0);
   EXPECT_EQ(objective.cost(Isometry3d(Eigen::Translation3d(1000, 0, 0))), 1);
 }
 
 TEST(AlignmentObjective, IsBetweenZeroAndOneAndGrowsWithTheError) {
-  const Case c = make_case(2);
+  const ObjectiveCase c = objective_case(2);
   const AlignmentObjective objective(c.source, c.target, kScale, kGate);
   Rng rng = make_stream(2, "alignment_objective_test poses");
   for (int i = 0; i < 20; ++i) {
@@ -59,7 +59,7 @@ TEST(AlignmentObjective, AResidualOfTheScaleCostsOneHalfAndAnotherFacingCostsOne
 // cost jumps.
 TEST(AlignmentObjective, GradientMeetsFiniteDifferences) {
   for (const std::uint64_t seed : {3u, 4u, 5u}) {
-    const Case c = make_case(seed);
+    const ObjectiveCase c = objective_case(seed);
     const AlignmentObjective objective(c.source, c.target, kScale, kGate);
     const Eigen::Vector3d centre(3, -2, 1);
     Twist gradient;
@@ -77,7 +77,7 @@ TEST(AlignmentObjective, GradientMeetsFiniteDifferences) {
 }
 
 TEST(AlignmentObjective, DoesNotChangeWhenBothCloudsMove) {
-  const Case c = make_case(6);
+  const ObjectiveCase c = objective_case(6);
   Rng rng = make_stream(6, "alignment_objective_test motions");
   const Isometry3d A = testing::random_pose(30, rng), B = testing::random_pose(30, rng);
   const Cloud source = transformed(c.source, B);
@@ -88,7 +88,7 @@ TEST(AlignmentObjective, DoesNotChangeWhenBothCloudsMove) {
 }
 
 TEST(AlignmentObjective, RefusesAnEmptySourceAndLengthsThatAreNotPositive) {
-  const Case c = make_case(7);
+  const ObjectiveCase c = objective_case(7);
   const Cloud empty;
   EXPECT_THROW(AlignmentObjective(empty, c.target, kScale, kGate), InvalidInput);
   EXPECT_THROW(AlignmentObjective(c.source, c.target, 0, kGate), InvalidOptions);

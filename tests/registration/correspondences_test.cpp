@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "registration/level_of.hpp"
 #include "support/matchers.hpp"
 #include "support/synthetic_scene.hpp"
 #include "tcm_icp/core/rigid_transform.hpp"
@@ -15,8 +16,7 @@ namespace {
 
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
-
-PyramidLevel level_of(const Cloud& cloud) { return {0.1, cloud, NeighborIndex(cloud.points)}; }
+using testing::level_of;
 
 // By loop over all pairs.
 Correspondences slowly(const Cloud& source, const Isometry3d& T, const Cloud& target, const CorrespondenceGate& gate) {

@@ -68,13 +68,13 @@ double least_over_subsets(const Rows& rows) {
   return best;
 }
 
-class L1FitTest : public testing::TestWithParam<LpSolver> {
+class L1FitTest : public ::testing::TestWithParam<LpSolver> {
  protected:
   L1FitTest() { options_.lp.solver = GetParam(); }
   L1FitOptions options_;
 };
 
-INSTANTIATE_TEST_SUITE_P(Solvers, L1FitTest, testing::Values(LpSolver::kGlpk, LpSolver::kCgal),
+INSTANTIATE_TEST_SUITE_P(Solvers, L1FitTest, ::testing::Values(LpSolver::kGlpk, LpSolver::kCgal),
                          [](const auto& solver) { return std::string(to_string(solver.param)); });
 
 TEST_P(L1FitTest, EqualsTheBestOfAllSubsets) {

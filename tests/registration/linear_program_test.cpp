@@ -57,13 +57,13 @@ double best_vertex(const LinearProgram& lp) {
   return best;
 }
 
-class LinearProgramTest : public testing::TestWithParam<LpSolver> {
+class LinearProgramTest : public ::testing::TestWithParam<LpSolver> {
  protected:
   LinearProgramTest() { options_.solver = GetParam(); }
   LpOptions options_;
 };
 
-INSTANTIATE_TEST_SUITE_P(Solvers, LinearProgramTest, testing::Values(LpSolver::kGlpk, LpSolver::kCgal),
+INSTANTIATE_TEST_SUITE_P(Solvers, LinearProgramTest, ::testing::Values(LpSolver::kGlpk, LpSolver::kCgal),
                          [](const auto& solver) { return std::string(to_string(solver.param)); });
 
 TEST_P(LinearProgramTest, ReachesTheBestVertex) {
@@ -152,10 +152,10 @@ TEST_P(LinearProgramTest, WithoutColumnsOnlyZeroIsFeasible) {
 
 TEST_P(LinearProgramTest, PrintsNothing) {
   Rng rng = make_stream(1, "silent");
-  testing::internal::CaptureStdout();
-  testing::internal::CaptureStderr();
+  ::testing::internal::CaptureStdout();
+  ::testing::internal::CaptureStderr();
   const LpSolution solution = solve(random_program(rng, 2, 7), options_);
-  EXPECT_EQ(testing::internal::GetCapturedStdout() + testing::internal::GetCapturedStderr(), "");
+  EXPECT_EQ(::testing::internal::GetCapturedStdout() + ::testing::internal::GetCapturedStderr(), "");
   EXPECT_TRUE(solution.optimal());
 }
 

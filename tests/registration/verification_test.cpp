@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "registration/level_of.hpp"
 #include "support/synthetic_scene.hpp"
 #include "tcm_icp/core/error.hpp"
 #include "tcm_icp/core/rigid_transform.hpp"
@@ -17,7 +18,7 @@ using Eigen::Vector3d;
 
 VerificationOptions options() { return {.gate_m = 1.0, .tolerance_m = 0.1, .slide_m = 2.0}; }
 
-PyramidLevel level_of(const Cloud& cloud) { return {0.5, cloud, NeighborIndex(cloud.points)}; }
+PyramidLevel half_metre_level(const Cloud& cloud) { return testing::level_of(cloud, 0.5); }
 
 // Points half a metre apart, none on an edge where planes meet, on `cells` x `cells` half metres of the plane spanned
 // by two axes, middle at the origin.
@@ -45,7 +46,7 @@ Cloud corner(int cells) {
 }
 
 TEST(VerifyAlignment, SharesAreAsCountedByHand) {
-  const PyramidLevel target = level_of(floor_of(40));
+  const PyramidLevel target = half_metre_level(floor_of(40));
   const Vector3d up = Vector3d::UnitZ();
   Cloud points;
   for (const double z : {0.02, -0.03, 0.04, 0.05, -0.06, 0.08}) {  // within the tolerance
@@ -72,8 +73,8 @@ TEST(VerifyAlignment, NothingChangesWhenBothCloudsMove) {
   Rng rng = make_stream(1, "verification_test");
   const Isometry3d A = testing::random_pose(20, rng), B = testing::random_pose(20, rng);
   const Isometry3d T(Eigen::Translation3d(0.01, 0.02, 0.05));
-  const auto still = verify_alignment(corner(10), level_of(corner(20)), T, options());
-  const auto moved = verify_alignment(transformed(corner(10), B), level_of(transformed(corner(20), A)),
+  const auto still = verify_alignment(corner(10), half_metre_level(corner(20)), T, options());
+  const auto moved = verify_alignment(transformed(corner(10), B), half_metre_level(transformed(corner(20), A)),
                                       A * T * B.inverse(), options());
   ASSERT_GT(still.inlier_share, 0.5);
   EXPECT_DOUBLE_EQ(moved.overlap, still.overlap);
@@ -83,13 +84,13 @@ TEST(VerifyAlignment, NothingChangesWhenBothCloudsMove) {
 
 TEST(VerifyAlignment, APlaneSlidesInThreeDirectionsAndACornerInNone) {
   // 20 m of floor, and 5 m on it: nothing runs over the edge when it slides by 2 m.
-  const auto plane = verify_alignment(floor_of(10), level_of(floor_of(40)), Isometry3d::Identity(), options());
+  const auto plane = verify_alignment(floor_of(10), half_metre_level(floor_of(40)), Isometry3d::Identity(), options());
   EXPECT_DOUBLE_EQ(plane.consensus(), 1);
   for (int k = 0; k < 3; ++k) EXPECT_GT(plane.left_after_slide[static_cast<std::size_t>(k)], 0.95) << k;
   for (int k = 3; k < 6; ++k) EXPECT_LT(plane.left_after_slide[static_cast<std::size_t>(k)], 0.2) << k;
 
   // Whichever way three planes slide by 2 m, at most the two along the way stay.
-  const auto in_corner = verify_alignment(corner(10), level_of(corner(40)), Isometry3d::Identity(), options());
+  const auto in_corner = verify_alignment(corner(10), half_metre_level(corner(40)), Isometry3d::Identity(), options());
   EXPECT_DOUBLE_EQ(in_corner.consensus(), 1);
   EXPECT_LT(in_corner.left_after_slide[0], 0.7);
   EXPECT_TRUE(std::is_sorted(in_corner.left_after_slide.rbegin(), in_corner.left_after_slide.rend()));
@@ -118,18 +119,18 @@ TEST(VerifyAlignment, WhatLiesAcrossACorridorHoldsIt) {
   corridor.points.insert(corridor.points.end(), posts.points.begin(), posts.points.end());
   corridor.normals.insert(corridor.normals.end(), posts.normals.begin(), posts.normals.end());
 
-  const auto held = verify_alignment(corridor, level_of(corridor), Isometry3d::Identity(), options());
+  const auto held = verify_alignment(corridor, half_metre_level(corridor), Isometry3d::Identity(), options());
   EXPECT_GT(held.left_after_slide[0], 0.85) << "it slides as a whole";
   EXPECT_EQ(held.num_across, posts.size());
   EXPECT_EQ(held.left_across, 0);
-  const auto bare = verify_alignment(along, level_of(along), Isometry3d::Identity(), options());
+  const auto bare = verify_alignment(along, half_metre_level(along), Isometry3d::Identity(), options());
   EXPECT_GT(bare.left_after_slide[0], 0.85);
   EXPECT_EQ(bare.num_across, 0u);
   EXPECT_EQ(bare.left_across, 1) << "nothing holds it";
 }
 
 TEST(VerifyAlignment, ATargetWithoutNormalsCannotAgree) {
-  PyramidLevel target = level_of(corner(20));
+  PyramidLevel target = half_metre_level(corner(20));
   for (auto& n : target.cloud.normals) n.setZero();
   const auto evidence = verify_alignment(corner(10), target, Isometry3d::Identity(), options());
   EXPECT_DOUBLE_EQ(evidence.overlap, 1);
@@ -140,7 +141,7 @@ TEST(VerifyAlignment, ATargetWithoutNormalsCannotAgree) {
 TEST(VerifyAlignment, NothingHeldOutIsNoEvidence) {
   for (const std::size_t count : {0u, 1u}) {
     const Cloud points{Points(count, Vector3d::Zero()), Points(count, Vector3d::UnitZ())};
-    const auto evidence = verify_alignment(points, level_of(floor_of(10)), Isometry3d::Identity(), options());
+    const auto evidence = verify_alignment(points, half_metre_level(floor_of(10)), Isometry3d::Identity(), options());
     EXPECT_EQ(evidence.consensus(), 0);
     EXPECT_EQ(evidence.left_after_slide[0], 1);
   }
@@ -150,8 +151,8 @@ TEST(VerifyAlignment, WithoutSlidesTheConsensusIsTheSame) {
   VerificationOptions hasty = options();
   hasty.with_slides = false;
   const Isometry3d T(Eigen::Translation3d(0.01, 0.02, 0.05));
-  const auto full = verify_alignment(corner(10), level_of(corner(20)), T, options());
-  const auto brief = verify_alignment(corner(10), level_of(corner(20)), T, hasty);
+  const auto full = verify_alignment(corner(10), half_metre_level(corner(20)), T, options());
+  const auto brief = verify_alignment(corner(10), half_metre_level(corner(20)), T, hasty);
   EXPECT_EQ(brief.consensus(), full.consensus());
   EXPECT_EQ(brief.median_residual_m, full.median_residual_m);
   EXPECT_LT(full.left_after_slide[0], 1);

@@ -18,7 +18,7 @@ namespace {
 using Eigen::Vector3d;
 using testing::write_ply;
 
-Points yard(std::uint64_t seed, std::size_t count, double noise_m = 0) {
+Points yard_points(std::uint64_t seed, std::size_t count, double noise_m = 0) {
   Rng rng = make_stream(seed, "scan_sampling_test");
   return testing::synthetic_scene({.num_scans = 1, .points_per_scan = count, .noise_m = noise_m}, rng).scans[0].points;
 }
@@ -31,7 +31,7 @@ OutlierOptions keep_all() {
 
 TEST(SampleScan, CountsPointsAndTakesTheFirstAsLocalOrigin) {
   const test::TempFolder folder;
-  Points points = yard(1, 2000);
+  Points points = yard_points(1, 2000);
   const Vector3d utm(500'000, 5'000'000, 300);
   for (auto& p : points) p += utm;
   points[10].x() = std::numeric_limits<double>::quiet_NaN();
@@ -56,7 +56,8 @@ TEST(SampleScan, WorkingCloudIsBounded) {
   const test::TempFolder folder;
   SamplingOptions sampling;
   sampling.max_working_points = 1000;
-  const SampledScan s = sample_scan(write_ply(folder.path() / "a.ply", yard(2, 8000)), sampling, keep_all(), 42, 1);
+  const SampledScan s =
+      sample_scan(write_ply(folder.path() / "a.ply", yard_points(2, 8000)), sampling, keep_all(), 42, 1);
   EXPECT_LE(s.scan.cloud.size(), 1000u);
   EXPECT_GT(s.scan.cloud.size(), 100u);
   EXPECT_EQ(s.scan.num_raw_points, 8000u);
@@ -65,7 +66,7 @@ TEST(SampleScan, WorkingCloudIsBounded) {
 TEST(SampleScan, NoiseAndExtentAreMeasured) {
   const test::TempFolder folder;
   const auto noise_of = [&](double noise_m) {
-    return sample_scan(write_ply(folder.path() / "a.ply", yard(3, 6000, noise_m)), {}, keep_all(), 42, 1).scan;
+    return sample_scan(write_ply(folder.path() / "a.ply", yard_points(3, 6000, noise_m)), {}, keep_all(), 42, 1).scan;
   };
   const Scan quiet = noise_of(0), noisy = noise_of(0.05);
   EXPECT_LT(quiet.noise_m, 0.005);
@@ -96,7 +97,7 @@ TEST(SampleScan, NormalsAreThoseOfSurfacesNotOfLinesOnThem) {
 TEST(SampleScan, RoughPlacesAreNoSurfaces) {
   const test::TempFolder folder;
   Rng rng = make_stream(4, "scan_sampling_test");
-  Points points = yard(4, 3000);
+  Points points = yard_points(4, 3000);
   const std::size_t num_yard = points.size();
   for (int i = 0; i < 1000; ++i)
     points.push_back(Vector3d(40, 0, 0) + testing::random_pose(2, rng).translation());  // a bush
@@ -128,7 +129,7 @@ TEST(SampleScan, RefusesScansThatCannotBeRegisteredAndSaysWhy) {
 
 TEST(SampleScan, ThreadsAndRepeatsDoNotMatter) {
   const test::TempFolder folder;
-  const auto path = write_ply(folder.path() / "a.ply", yard(5, 4000, 0.02));
+  const auto path = write_ply(folder.path() / "a.ply", yard_points(5, 4000, 0.02));
   const SampledScan one = sample_scan(path, {}, {}, 42, 1), two = sample_scan(path, {}, {}, 42, 2);
   EXPECT_EQ(one.scan.cloud.points, two.scan.cloud.points);
   EXPECT_EQ(one.scan.cloud.normals, two.scan.cloud.normals);

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "simulation/simple_scenes.hpp"
 #include "tcm_icp/core/error.hpp"
 
 namespace tcm_icp {
@@ -12,6 +13,9 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Translation3d;
 using Eigen::Vector3d;
+using testing::ground;
+using testing::room;
+using testing::scan_with;
 
 /// Free of errors and of thinning: each ray that meets something returns.
 ScannerOptions ideal() {
@@ -23,25 +27,6 @@ ScannerOptions ideal() {
   options.thinning_voxel_m = 0;
   options.isolated_share = 0;
   return options;
-}
-
-/// A room of 8 x 6 x 4 m about the origin, seen from inside.
-RayCaster room(double reflectivity = 1) {
-  TriangleMesh mesh;
-  add_box(mesh, Isometry3d::Identity(), {Vector3d(-4, -3, -2), Vector3d(4, 3, 2)}, reflectivity);
-  return RayCaster(mesh);
-}
-
-RayCaster ground() {
-  TriangleMesh mesh;
-  add_quad(mesh, {-500, -500, 0}, {500, -500, 0}, {500, 500, 0}, {-500, 500, 0}, 0.3);
-  return RayCaster(mesh);
-}
-
-LidarScan scan_with(const RayCaster& scene, const Isometry3d& T_world_scanner, const ScannerOptions& options,
-                    int num_threads = 1) {
-  Rng rng = make_stream(11, "test");
-  return simulate_scan(scene, T_world_scanner, options, rng, num_threads);
 }
 
 const Isometry3d kTilted(Translation3d(0.5, -0.3, 0.2) * Eigen::AngleAxisd(0.8, Vector3d(1, 2, 3).normalized()));

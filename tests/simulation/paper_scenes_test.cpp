@@ -38,7 +38,7 @@ SceneSetOptions coarse(SceneKind kind, int num_scans) {
   return options;
 }
 
-SceneSet simulate(const SceneSetOptions& options, int num_threads = 1) {
+SceneSet simulate_by(const SceneSetOptions& options, int num_threads = 1) {
   RunContext context;
   context.seed = 5;
   context.num_threads = num_threads;
@@ -113,7 +113,7 @@ TEST(PaperScenes, ThePalaceIsItsOwnMirrorImage) {
 }
 
 TEST(PaperScenes, NextToNothingReturnsFromTheLake) {
-  const SceneSet set = simulate(coarse(SceneKind::kCanopy, 3));
+  const SceneSet set = simulate_by(coarse(SceneKind::kCanopy, 3));
   std::size_t lake = 0, all = 0;
   for (std::size_t i = 0; i < set.scans.size(); ++i) {
     for (const auto& p : set.scans[i].cloud.points) lake += std::abs((set.truth.scans[i].T_world_scan * p).z()) < 0.02;
@@ -129,7 +129,7 @@ TEST(PaperScenes, TruthPutsTheScansOfEachSensorOntoTheSurfaces) {
     options.num_scans = 2;
     options.scanner.step_deg = 2;
     options.scanner.isolated_share = options.scanner.angular_noise_deg = options.scanner.beam_width_deg = 0;
-    const SceneSet set = simulate(options);
+    const SceneSet set = simulate_by(options);
     const RayCaster caster(set.scene.mesh);
     for (std::size_t i = 0; i < set.scans.size(); ++i) {
       ASSERT_GT(set.scans[i].cloud.size(), 1000u) << sensor_name(sensor);
@@ -141,7 +141,7 @@ TEST(PaperScenes, TruthPutsTheScansOfEachSensorOntoTheSurfaces) {
 
 TEST(PaperScenes, NeighboursOverlapAndThreadsChangeNothing) {
   for (const SceneKind kind : kScenes) {
-    const SceneSet one = simulate(coarse(kind, 6)), three = simulate(coarse(kind, 6), 3);
+    const SceneSet one = simulate_by(coarse(kind, 6)), three = simulate_by(coarse(kind, 6), 3);
     const Eigen::MatrixXd& overlap = one.truth.overlap;
     const auto shared = [&](Eigen::Index a, Eigen::Index b) { return std::max(overlap(a, b), overlap(b, a)); };
     for (Eigen::Index i = 0; i + 1 < 6; ++i) {
@@ -158,7 +158,7 @@ TEST(PaperScenes, StationsLieAsFarApartAsTheWantedOverlapAsks) {
   for (const double wanted : {0.7, 0.4}) {
     SceneSetOptions options = coarse(SceneKind::kStreet, 5);
     options.overlap = wanted;
-    const SceneSet set = simulate(options);
+    const SceneSet set = simulate_by(options);
     double sum = 0;
     for (Eigen::Index i = 0; i + 1 < 5; ++i) sum += std::max(set.truth.overlap(i, i + 1), set.truth.overlap(i + 1, i));
     shared.push_back(sum / 4);
@@ -169,9 +169,9 @@ TEST(PaperScenes, StationsLieAsFarApartAsTheWantedOverlapAsks) {
 
 TEST(PaperScenes, MotionAddsHalfTheWayOfATurnToTheTolerance) {
   SceneSetOptions options = coarse(SceneKind::kUrban, 1);
-  const double moving = simulate(options).truth.tolerance.rmse_m;
+  const double moving = simulate_by(options).truth.tolerance.rmse_m;
   options.scanner.speed_m_s = 0;
-  EXPECT_NEAR(moving - simulate(options).truth.tolerance.rmse_m, 0.25, 1e-9);
+  EXPECT_NEAR(moving - simulate_by(options).truth.tolerance.rmse_m, 0.25, 1e-9);
 }
 
 TEST(PaperScenes, RefuseWhatCannotBe) {
@@ -183,7 +183,7 @@ TEST(PaperScenes, RefuseWhatCannotBe) {
   EXPECT_THROW(options.validate(), InvalidOptions);
   options = coarse(SceneKind::kPlaza, 200);
   options.overlap = 0.5;  // no room for so many on one square
-  EXPECT_THROW(simulate(options), InvalidOptions);
+  EXPECT_THROW(simulate_by(options), InvalidOptions);
   Rng rng = make_stream(1, "test");
   EXPECT_THROW(make_urban_scene({1}, rng), InvalidOptions);
   EXPECT_THROW(make_canopy_scene({NAN}, rng), InvalidOptions);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include "simulation/simple_scenes.hpp"
 #include "tcm_icp/core/error.hpp"
 #include "tcm_icp/simulation/lidar.hpp"
 
@@ -14,6 +15,9 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Translation3d;
 using Eigen::Vector3d;
+using testing::ground;
+using testing::room;
+using testing::scan_with;
 
 /// A sensor free of errors: each ray that meets something returns.
 ScannerOptions ideal(SensorKind sensor) {
@@ -24,23 +28,6 @@ ScannerOptions ideal(SensorKind sensor) {
   options.full_return_signal = 1e-9;
   options.max_incidence_deg = 90;
   return options;
-}
-
-RayCaster room() {
-  TriangleMesh mesh;
-  add_box(mesh, Isometry3d::Identity(), {Vector3d(-4, -3, -2), Vector3d(4, 3, 2)}, 1);
-  return RayCaster(mesh);
-}
-
-RayCaster ground() {
-  TriangleMesh mesh;
-  add_quad(mesh, {-500, -500, 0}, {500, -500, 0}, {500, 500, 0}, {-500, 500, 0}, 0.3);
-  return RayCaster(mesh);
-}
-
-LidarScan scan_with(const RayCaster& scene, const Isometry3d& T_world_scanner, const ScannerOptions& options) {
-  Rng rng = make_stream(11, "test");
-  return simulate_scan(scene, T_world_scanner, options, rng, 1);
 }
 
 double elevation_deg(const Vector3d& p) { return std::atan2(p.z(), p.head<2>().norm()) * 180 / M_PI; }

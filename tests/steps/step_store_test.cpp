@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class StepStoreTest : public testing::Test {
+class StepStoreTest : public ::testing::Test {
  protected:
   std::vector<fs::path> files_in(const std::string& part) const {
     std::vector<fs::path> out;

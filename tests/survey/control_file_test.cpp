@@ -11,7 +11,7 @@
 namespace tcm_icp {
 namespace {
 
-class ControlFile : public testing::Test {
+class ControlFile : public ::testing::Test {
  protected:
   std::vector<ControlPoint> read(const std::string& text) const {
     return read_control_file(folder_.write("control.csv", text), scans_);

@@ -43,11 +43,12 @@ class Adjustment {
         context_(context),
         T_reference_scan_(T_reference_scan) {}
 
-  void lp_step(double gate_m) {
+  /// False where it has no solution, or is none: from some 250 scans on.
+  bool lp_step(double gate_m) {
     const std::size_t most = lp_matches_of_link(2 * pairs_.size(), lp_.lp.solver);
     if (most < kLeastLpMatchesOfLink) {
-      record_.lp_status = LpStatus::kSizeLimit;  // from some 250 scans on
-      return;
+      record_.lp_status = LpStatus::kSizeLimit;
+      return false;
     }
     const std::vector<JointLink> links = thinned(match(gate_m), most);
     const std::vector<TwistFrame> frames = scan_frames(scans_, T_reference_scan_);
@@ -62,7 +63,7 @@ class Adjustment {
     if (!lp.optimal()) {
       context_.warn("a joint linear program ended with " + std::string(to_string(lp.status)) +
                     "; its step is left out");
-      return;
+      return false;
     }
     record_.lp_rms_move_m = move(frames, lp.steps_m);
     record_.outlying_pairs.clear();
@@ -73,6 +74,7 @@ class Adjustment {
         record_.outlying_pairs.push_back(pairs_[outlying[i] / 2]);
       }
     }
+    return true;
   }
 
   /// False where there is nothing to match or poses have settled, or where the equations have no solution.
@@ -175,7 +177,8 @@ ScanPairs overlapping_pairs(const std::vector<PreparedScan>& scans,
 
 AdjustmentRecord adjust_poses(const std::vector<PreparedScan>& scans, const ScanPairs& pairs, std::size_t reference,
                               const Resolutions& resolutions, const AdjustmentOptions& options, const L1FitOptions& lp,
-                              const RunContext& context, std::vector<Eigen::Isometry3d>& T_reference_scan) {
+                              const RunContext& context, std::vector<Eigen::Isometry3d>& T_reference_scan,
+                              StartingPoses from) {
   Adjustment adjustment(scans, pairs, reference, lp, context, T_reference_scan);
   const int lp_steps = options.lp_steps, steps = options.steps;
   const double first_m = kGateInVoxels * resolutions.coarse_m, last_m = kGateInVoxels * resolutions.fine_m;
@@ -184,14 +187,15 @@ AdjustmentRecord adjust_poses(const std::vector<PreparedScan>& scans, const Scan
   const auto report = [&] {
     context.report("adjusting", static_cast<std::size_t>(done++), static_cast<std::size_t>(lp_steps + steps));
   };
+  bool is_near = from == StartingPoses::kAdjusted;
   for (int step = 0; step < lp_steps && !pairs.empty(); ++step) {
     report();
-    adjustment.lp_step(gate_m(static_cast<double>(step) / std::max(1, lp_steps - 1)));
+    is_near |= adjustment.lp_step(gate_m(static_cast<double>(step) / std::max(1, lp_steps - 1)));
   }
   for (int step = 0; step < steps; ++step) {
     report();
-    // The gate reaches its last size half-way, so that the second half settles; the programs have brought it there.
-    const double share = lp_steps > 0 ? 1 : 2.0 * step / std::max(1, steps - 1);
+    // The gate reaches its last size half-way, so that the second half settles; programs have brought it there.
+    const double share = is_near ? 1 : 2.0 * step / std::max(1, steps - 1);
     if (!adjustment.least_squares_step(gate_m(share))) break;
   }
   return adjustment.record();

@@ -19,15 +19,22 @@ ScanPairs overlapping_pairs(const std::vector<PreparedScan>& scans,
                             const std::vector<Eigen::Isometry3d>& T_reference_scan, const std::vector<bool>& placed,
                             double min_overlap, int num_threads);
 
+/// Where adjust_poses() begins.
+enum class StartingPoses {
+  kInferred,
+  kAdjusted,  ///< over other pairs, most of them the same: least squares need no wide gate
+};
+
 /// All poses at once, the reference fixed, over all pairs in both directions; neighbours are found anew before each
 /// step at the fine resolution. First options.lp_steps linear programs (solve_joint_lp), which a
 /// minority of wrong matches does not move; the gate shrinks from twice the coarse to twice the fine resolution. Then
-/// adjustment_steps of Gauss-Newton with Huber's weights and sparse Cholesky, which are more exact where the errors are
-/// nearly normal. Each scan's error is shared among its links, so it does not pile up along a chain as in merging one
-/// by one.
+/// options.steps of Gauss-Newton with Huber's weights and sparse Cholesky, which are more exact where the errors are
+/// nearly normal; where no program was solved, the gate shrinks in them. Each scan's error is shared among its links,
+/// so it does not pile up along a chain as in merging one by one.
 /// Cost: one nearest-neighbour query a point and pair and step, and the programs.
 AdjustmentRecord adjust_poses(const std::vector<PreparedScan>& scans, const ScanPairs& pairs, std::size_t reference,
                               const Resolutions& resolutions, const AdjustmentOptions& options, const L1FitOptions& lp,
-                              const RunContext& context, std::vector<Eigen::Isometry3d>& T_reference_scan);
+                              const RunContext& context, std::vector<Eigen::Isometry3d>& T_reference_scan,
+                              StartingPoses from = StartingPoses::kInferred);
 
 }  // namespace tcm_icp

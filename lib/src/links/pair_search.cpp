@@ -95,6 +95,8 @@ struct PairSearch::Impl {
   std::map<std::pair<std::size_t, std::size_t>, std::vector<PoseCandidate>> aligned;      // by features
   std::map<std::pair<std::size_t, std::size_t>, std::vector<Eigen::Isometry3d>> fitted;   // target and source
   std::map<std::pair<std::size_t, std::size_t>, std::vector<Eigen::Isometry3d>> implied;  // that were tried
+  std::map<std::pair<std::size_t, std::size_t>, std::vector<std::pair<Eigen::Isometry3d, double>>>
+      overlaps;  // at poses
 
   double overlap_distance_m(std::size_t scan) const {
     return kOverlapInVoxels * scans[scan].pyramid.level(kOverlapLevel).voxel_size_m;
@@ -137,14 +139,9 @@ struct PairSearch::Impl {
 
   bool is_large() const { return scans.size() > kMostPartners + 1; }
 
-  // All pairs at once: they share transforms.
-  std::vector<double> height_map_scores(const ScanPairs& pairs) {
-    ScanPairs all;
-    for (std::size_t a = 0; a < scans.size(); ++a) {
-      for (std::size_t b = a + 1; b < scans.size(); ++b) all.emplace_back(a, b);
-    }
-    height_maps.scores(all);
-    return height_maps.scores(pairs);
+  // Inference of a large set costs more than the pairs of the few scans that it left without a place.
+  bool all_methods_at_once(const std::vector<bool>& wanted) const {
+    return is_large() && std::find(wanted.begin(), wanted.end(), false) != wanted.end();
   }
 
   std::vector<double> feature_scores(const ScanPairs& pairs) {
@@ -276,21 +273,47 @@ struct PairSearch::Impl {
     }
   }
 
+  /// At each of the poses; known ones within `same_m` of them are not asked again. Most of what an inference implies
+  /// the one before implied, too.
+  std::vector<double> overlaps_at(const std::vector<ImpliedPose>& poses, double same_m) {
+    std::vector<double> out(poses.size(), 0);
+    std::vector<char> is_new(poses.size(), 0);
+    parallel_for(context.num_threads, poses.size(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t k = begin; k < end; ++k) {
+        const std::size_t a = poses[k].a, b = poses[k].b;
+        const Eigen::Isometry3d& T_a_b = poses[k].T_a_b;
+        if (!may_overlap(a, b, T_a_b)) continue;
+        if (const auto known = known_overlap(a, b, T_a_b, same_m)) {
+          out[k] = *known;
+          continue;
+        }
+        const PyramidLevel &x = scans[a].pyramid.level(kOverlapLevel), &y = scans[b].pyramid.level(kOverlapLevel);
+        out[k] = overlap({x.cloud.points, x.index}, {y.cloud.points, y.index}, T_a_b, overlap_distance_m(a));
+        is_new[k] = 1;
+      }
+    });
+    for (std::size_t k = 0; k < poses.size(); ++k) {
+      if (is_new[k] != 0) overlaps[{poses[k].a, poses[k].b}].emplace_back(poses[k].T_a_b, out[k]);
+    }
+    return out;
+  }
+
+  std::optional<double> known_overlap(std::size_t a, std::size_t b, const Eigen::Isometry3d& T_a_b,
+                                      double same_m) const {
+    const auto known = overlaps.find({a, b});
+    if (known == overlaps.end()) return std::nullopt;
+    for (const auto& [T, share] : known->second) {
+      if (rms_displacement(T_a_b.inverse() * T, scans[b].moments) < same_m) return share;
+    }
+    return std::nullopt;
+  }
+
   /// Fits pairs at given poses where they overlap there; of each scan those with the `most_partners` it overlaps with
   /// most. False where there was none, or all were tried before.
   bool try_poses(const std::vector<ImpliedPose>& poses, CoarseMethod method, std::size_t most_partners,
                  HypothesisSet& set) {
     std::map<ScanPairs::value_type, std::vector<PoseCandidate>> wanted;
-    std::vector<double> overlaps(poses.size(), 0);
-    parallel_for(context.num_threads, poses.size(), [&](std::size_t begin, std::size_t end) {
-      for (std::size_t k = begin; k < end; ++k) {
-        const auto& [a, b, T_a_b, agrees, configuration] = poses[k];
-        const PyramidLevel &x = scans[a].pyramid.level(kOverlapLevel), &y = scans[b].pyramid.level(kOverlapLevel);
-        if (!may_overlap(a, b, T_a_b)) continue;
-        overlaps[k] = overlap({x.cloud.points, x.index}, {y.cloud.points, y.index}, T_a_b, overlap_distance_m(a));
-      }
-    });
-    for (const std::size_t k : most_overlapping(poses, overlaps, most_partners)) {
+    for (const std::size_t k : most_overlapping(poses, overlaps_at(poses, set.same_m()), most_partners)) {
       if (poses[k].agrees) continue;
       const std::size_t a = poses[k].a, b = poses[k].b;
       const Eigen::Isometry3d& T_a_b = poses[k].T_a_b;
@@ -405,12 +428,19 @@ bool PairSearch::try_implied(const std::vector<ImpliedPose>& poses, HypothesisSe
 bool PairSearch::extend(const std::vector<bool>& wanted, const std::vector<std::size_t>& groups, HypothesisSet& set) {
   do {
     auto pairs = impl_->pairs(wanted, groups);
+    bool any = false;
     for (const Tried before : {Tried::kNothing, Tried::kHeightMaps, Tried::kFeatures}) {
-      if (pairs[before].empty()) continue;
-      impl_->fit(pairs[before], impl_->candidates(before, pairs[before]), set);
-      for (const auto& pair : pairs[before]) impl_->tried[pair] = next(before);
-      return true;
+      const ScanPairs& now = pairs[before];
+      if (now.empty()) continue;
+      impl_->fit(now, impl_->candidates(before, now), set);
+      for (const auto& pair : now) impl_->tried[pair] = next(before);
+      any = true;
+      if (!impl_->all_methods_at_once(wanted)) break;
+      ScanPairs& later = pairs[next(before)];
+      later.insert(later.end(), now.begin(), now.end());
+      std::sort(later.begin(), later.end());
     }
+    if (any) return true;
   } while (impl_->reach_further(wanted));
   return false;
 }

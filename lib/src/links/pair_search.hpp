@@ -50,9 +50,10 @@ class PairSearch {
 
   /// Tries the pairs of `wanted` scans with those of other `groups` (numbers by scan: poses within a group are clear)
   /// by the next method that they were not tried by: height maps, features, slides of the poses that those fitted to
-  /// (slide_search.hpp). Hypotheses go to the set. False where no pair was left. Each scan is tried with the six others
-  /// that look most like it (ScanWords); once they were tried by all methods, wanted scans are tried with twice as
-  /// many. Cost: some 50 ms of processor time a pair and method, and a scan.
+  /// (slide_search.hpp); where a few scans of a large set are wanted, by all three. Hypotheses go to the set. False
+  /// where no pair was left. Each scan is tried with the six others that look most like it (ScanWords); once they were
+  /// tried by all methods, wanted scans are tried with twice as many. Cost: some 50 ms of processor time a pair and
+  /// method, and a scan.
   bool extend(const std::vector<bool>& wanted, const std::vector<std::size_t>& groups, HypothesisSet& set);
 
  private:

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <map>
 #include <string>
 
 #include "adjustment/adjustment.hpp"
@@ -24,7 +25,13 @@ namespace {
 // Of a scan: those it overlaps most with say what there is to say, and each costs time.
 constexpr std::size_t kMaxNeighbors = 6;
 constexpr std::size_t kUnionPoints = 1000;
-constexpr int kMaxRounds = 3;  // of moves to likelier places
+constexpr double kUnmovedInVoxels = 0.01;  // fine ones, which are larger than the noise
+constexpr int kMaxRounds = 3;              // of moves to likelier places
+
+struct MeasuredAt {
+  Eigen::Isometry3d T_a_b = Eigen::Isometry3d::Identity();
+  LinkMeasurements measurements;
+};
 
 class Settling {
  public:
@@ -49,6 +56,8 @@ class Settling {
       adjust_likelier();
       measure();
       const std::vector<std::size_t> dropped = decide_members();
+      context_.debug(std::to_string(dropped.size()) + " of " + std::to_string(out_.component.size()) +
+                     " adjusted scans are set aside");
       if (dropped.empty()) break;
       for (const std::size_t i : dropped) out_.component.T_reference_scan[i].reset();
       if (!out_.component.has(out_.component.reference)) choose_another_reference();
@@ -75,7 +84,8 @@ class Settling {
     out_.pairs = hypotheses_.without_unlikely(
         overlapping_pairs(scans_, T, membership(), kMinLinkOverlap, context_.num_threads), T);
     out_.adjustment = adjust_once(steps_, scans_, out_.pairs, out_.component.reference, resolutions_,
-                                  options_.adjustment, options_.lp, context_, T);
+                                  options_.adjustment, options_.lp, context_, T, poses_are_);
+    poses_are_ = StartingPoses::kAdjusted;
     for (const std::size_t i : out_.component.members()) out_.component.T_reference_scan[i] = T[i];
   }
 
@@ -90,6 +100,7 @@ class Settling {
         out_.component = before;
         return;
       }
+      poses_are_ = StartingPoses::kInferred;
       adjust();
       if (log_likelihood(graph_, out_.component) > likelihood) continue;
       out_.component = before;
@@ -111,13 +122,7 @@ class Settling {
   void measure() {
     context_.report("verifying", 0, 1);
     const std::vector<Eigen::Isometry3d> T = poses();
-    link_measurements_.assign(out_.pairs.size(), {});
-    parallel_for(context_.num_threads, out_.pairs.size(), [&](std::size_t begin, std::size_t end) {
-      for (std::size_t k = begin; k < end; ++k) {
-        const auto [a, b] = out_.pairs[k];
-        link_measurements_[k] = measure_link(scans_[a], scans_[b], T[a].inverse() * T[b]);
-      }
-    });
+    measure_links(T);
     out_.links.clear();
     for (std::size_t k = 0; k < out_.pairs.size(); ++k) {
       const auto [a, b] = out_.pairs[k];
@@ -135,6 +140,27 @@ class Settling {
     for (std::size_t k = 0; k < members.size(); ++k) {
       out_.measurements[members[k]] = measured[k];
       weigh_cuts(members[k], *out_.measurements[members[k]]);
+    }
+  }
+
+  // Those that were measured where they are, but for what no measurement tells, are not measured again.
+  void measure_links(const std::vector<Eigen::Isometry3d>& T) {
+    std::vector<MeasuredAt> now(out_.pairs.size());
+    parallel_for(context_.num_threads, out_.pairs.size(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t k = begin; k < end; ++k) {
+        const auto [a, b] = out_.pairs[k];
+        const Eigen::Isometry3d T_a_b = T[a].inverse() * T[b];
+        const auto known = measured_.find(out_.pairs[k]);
+        const bool is_known =
+            known != measured_.end() && rms_displacement(T_a_b.inverse() * known->second.T_a_b, scans_[b].moments) <
+                                            kUnmovedInVoxels * resolutions_.fine_m;
+        now[k] = is_known ? known->second : MeasuredAt{T_a_b, measure_link(scans_[a], scans_[b], T_a_b)};
+      }
+    });
+    link_measurements_.clear();
+    for (std::size_t k = 0; k < out_.pairs.size(); ++k) {
+      link_measurements_.push_back(now[k].measurements);
+      measured_.insert_or_assign(out_.pairs[k], std::move(now[k]));
     }
   }
 
@@ -279,7 +305,9 @@ class Settling {
   const RunContext& context_;
   const StepStore* steps_;
   SettledComponent out_;
+  StartingPoses poses_are_ = StartingPoses::kInferred;
   std::vector<LinkMeasurements> link_measurements_;
+  std::map<ScanPairs::value_type, MeasuredAt> measured_;
   std::vector<Cut> cuts_;
 };
 

@@ -1,6 +1,5 @@
 #include "pipeline/solve_steps.hpp"
 
-#include "adjustment/adjustment.hpp"
 #include "links/pair_steps.hpp"
 #include "merging/merging.hpp"
 #include "steps/do_once.hpp"
@@ -138,14 +137,14 @@ std::vector<MergeRecord> merge_once(const StepStore* store, const std::vector<Pr
 AdjustmentRecord adjust_once(const StepStore* store, const std::vector<PreparedScan>& scans, const ScanPairs& pairs,
                              std::size_t reference, const Resolutions& resolutions, const AdjustmentOptions& options,
                              const L1FitOptions& lp, const RunContext& context,
-                             std::vector<Eigen::Isometry3d>& T_reference_scan) {
+                             std::vector<Eigen::Isometry3d>& T_reference_scan, StartingPoses from) {
   const auto adjust = [&](std::vector<Eigen::Isometry3d>& T) {
-    return adjust_poses(scans, pairs, reference, resolutions, options, lp, context, T);
+    return adjust_poses(scans, pairs, reference, resolutions, options, lp, context, T, from);
   };
   if (store == nullptr) return adjust(T_reference_scan);
   const auto& [lp_steps, steps] = options;
   const StepKey key =
-      step_key("adjustments", digests_of(scans), pairs, reference, lp_steps, steps, lp, T_reference_scan);
+      step_key("adjustments", digests_of(scans), pairs, reference, lp_steps, steps, lp, T_reference_scan, from);
   auto adjusted = do_once<Adjusted>(*store, key, [&] {
     Adjusted out{{}, T_reference_scan};
     out.record = adjust(out.T_reference_scan);

@@ -4,10 +4,9 @@
 #include <Eigen/Geometry>
 #include <vector>
 
+#include "adjustment/adjustment.hpp"
 #include "inference/compared_pairs.hpp"
 #include "scans/prepared_scan.hpp"
-#include "tcm_icp/adjustment/adjustment_options.hpp"
-#include "tcm_icp/adjustment/adjustment_record.hpp"
 #include "tcm_icp/core/run_context.hpp"
 #include "tcm_icp/merging/merge_options.hpp"
 #include "tcm_icp/merging/merge_record.hpp"
@@ -24,6 +23,6 @@ std::vector<MergeRecord> merge_once(const StepStore* store, const std::vector<Pr
 AdjustmentRecord adjust_once(const StepStore* store, const std::vector<PreparedScan>& scans, const ScanPairs& pairs,
                              std::size_t reference, const Resolutions& resolutions, const AdjustmentOptions& options,
                              const L1FitOptions& lp, const RunContext& context,
-                             std::vector<Eigen::Isometry3d>& T_reference_scan);
+                             std::vector<Eigen::Isometry3d>& T_reference_scan, StartingPoses from);
 
 }  // namespace tcm_icp

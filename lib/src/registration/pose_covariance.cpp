@@ -91,7 +91,7 @@ JointUncertainty estimate_uncertainty(const std::vector<TwistFrame>& frames, std
     scatters.push_back(std::move(scatter));
     edges_m.push_back(edge_m);
   }
-  std::vector<double> ratios = sandwich.variance_ratios(scatters);
+  std::vector<double> ratios = sandwich.variance_ratios(scatters, options.num_threads);
   const double independent = ratios.front();
   std::size_t best = 0;
   for (std::size_t k = 1; k < ratios.size(); ++k) {
@@ -105,7 +105,7 @@ JointUncertainty estimate_uncertainty(const std::vector<TwistFrame>& frames, std
   const double count = scatters[best].blocks_of_scan;
   const double scale = count > 6 ? count / (count - 6) * out.disagreement_factor * out.disagreement_factor
                                  : std::numeric_limits<double>::infinity();
-  const std::vector<Matrix6> covariances = sandwich.covariances(scatters[best]);
+  const std::vector<Matrix6> covariances = sandwich.covariances(scatters[best], options.num_threads);
   for (std::size_t i = 0; i < frames.size(); ++i) {
     if (i == fixed) {
       out.poses.push_back({frames[i].centre, Matrix6::Zero(), true});

@@ -6,6 +6,7 @@
 
 #include "registration/link_scores.hpp"
 #include "registration/match_blocks.hpp"
+#include "tcm_icp/core/parallel.hpp"
 #include "tcm_icp/core/statistics.hpp"
 
 namespace tcm_icp {
@@ -100,29 +101,36 @@ ScoreScatter ScoreSandwich::scatter(double block_m) const {
 }
 
 // The trace of the inverse times each scatter.
-std::vector<double> ScoreSandwich::variance_ratios(const std::vector<ScoreScatter>& scatters) const {
-  std::vector<double> sums(scatters.size(), 0);
-  for (std::size_t scan = 0; scan < frames_.size(); ++scan) {
-    const Eigen::MatrixXd columns = inverse_columns(scan);
-    for (std::size_t k = 0; k < scatters.size(); ++k) {
-      for (int j = 0; j < 6; ++j) {
-        const auto column = static_cast<Eigen::Index>(6 * scan) + j;
-        for (Eigen::SparseMatrix<double>::InnerIterator entry(scatters[k].matrix, column); entry; ++entry) {
-          sums[k] += entry.value() * columns(entry.row(), j);
+std::vector<double> ScoreSandwich::variance_ratios(const std::vector<ScoreScatter>& scatters, int num_threads) const {
+  Eigen::MatrixXd traces(static_cast<Eigen::Index>(scatters.size()), static_cast<Eigen::Index>(frames_.size()));
+  parallel_for(num_threads, frames_.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t scan = begin; scan < end; ++scan) {
+      const Eigen::MatrixXd columns = inverse_columns(scan);
+      for (std::size_t k = 0; k < scatters.size(); ++k) {
+        double sum = 0;
+        for (int j = 0; j < 6; ++j) {
+          const auto column = static_cast<Eigen::Index>(6 * scan) + j;
+          for (Eigen::SparseMatrix<double>::InnerIterator entry(scatters[k].matrix, column); entry; ++entry) {
+            sum += entry.value() * columns(entry.row(), j);
+          }
         }
+        traces(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(scan)) = sum;
       }
     }
-  }
-  return sums;
+  });
+  const Eigen::VectorXd sums = traces.rowwise().sum();
+  return {sums.begin(), sums.end()};
 }
 
-std::vector<Matrix6> ScoreSandwich::covariances(const ScoreScatter& scatter) const {
-  std::vector<Matrix6> out;
+std::vector<Matrix6> ScoreSandwich::covariances(const ScoreScatter& scatter, int num_threads) const {
+  std::vector<Matrix6> out(frames_.size());
   const double floor_m2 = noise_m_ * noise_m_ * damping_;
-  for (std::size_t scan = 0; scan < frames_.size(); ++scan) {
-    const Eigen::MatrixXd columns = inverse_columns(scan);
-    out.emplace_back(columns.transpose() * (scatter.matrix * columns) + floor_m2 * columns.transpose() * columns);
-  }
+  parallel_for(num_threads, frames_.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t scan = begin; scan < end; ++scan) {
+      const Eigen::MatrixXd columns = inverse_columns(scan);
+      out[scan] = columns.transpose() * (scatter.matrix * columns) + floor_m2 * columns.transpose() * columns;
+    }
+  });
   return out;
 }
 

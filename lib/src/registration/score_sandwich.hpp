@@ -32,10 +32,10 @@ class ScoreSandwich {
 
   /// For each scatter, the sum over all unknowns of the variance by it, in units of what one unit of noise would give.
   /// A solution with six right sides for each scan.
-  std::vector<double> variance_ratios(const std::vector<ScoreScatter>& scatters) const;
+  std::vector<double> variance_ratios(const std::vector<ScoreScatter>& scatters, int num_threads) const;
 
   /// Of each scan's step [m^2]. Very large where the matches do not determine it. As many solutions.
-  std::vector<Matrix6> covariances(const ScoreScatter& scatter) const;
+  std::vector<Matrix6> covariances(const ScoreScatter& scatter, int num_threads) const;
 
   /// Of all scans' steps together [m^2], 6 n x 6 n. O(n^3).
   Eigen::MatrixXd joint_covariance(const ScoreScatter& scatter) const;

@@ -39,7 +39,8 @@ struct PoseCovarianceOptions {
   double smallest_block_m = 0;          ///< [m] > 0; the resolution of the points
   std::size_t min_blocks_of_scan = 30;  ///< >= 7; larger blocks are not tried once the typical scan has fewer
   bool keeps_joint = false;             ///< the covariance of all scans together, too
-  void validate() const;                ///< throws InvalidOptions
+  int num_threads = 1;
+  void validate() const;  ///< throws InvalidOptions
 };
 
 /// Covariance H^-1 M H^-1 of Huber's estimate (Huber, 1967) at the poses the matches were found at, the fixed scan's
