@@ -122,6 +122,37 @@ TEST(AdjustPoses, LeavesProgramsOutWhoseLinksHaveTooFewMatches) {
   EXPECT_TRUE(poses[1].isApprox(start[1], 0));
 }
 
+// The start lies beyond the narrow gate, of half a coarse voxel.
+TEST(AdjustPoses, WithoutAProgramLeastSquaresBeginWithAWideGate) {
+  PreparedScene s = scene({.num_scans = 4, .points_per_scan = 5000, .range_m = 12}, 2);
+  const double tolerance = 0.02 * s.resolutions.fine_m;
+  s.resolutions.fine_m = s.resolutions.coarse_m / 4;
+  const auto start = disturbed(s, 0.05, s.resolutions.coarse_m, 2);
+  AdjustmentOptions no_programs;
+  no_programs.lp_steps = 0;
+  auto poses = start, narrow = start;
+  adjust_poses(s.scans, all_pairs(4), 0, s.resolutions, no_programs, {}, {}, poses);
+  EXPECT_LE(worst_error_m(s, poses), tolerance);
+  adjust_poses(s.scans, all_pairs(4), 0, s.resolutions, no_programs, {}, {}, narrow, StartingPoses::kAdjusted);
+  EXPECT_GT(worst_error_m(s, narrow), 10 * tolerance);
+}
+
+TEST(AdjustPoses, AdjustedPosesStayWhereTheyAre) {
+  const PreparedScene s = scene({.num_scans = 4, .points_per_scan = 5000, .range_m = 12, .noise_m = 0.01}, 4);
+  AdjustmentOptions no_programs;
+  no_programs.lp_steps = 0;
+  no_programs.steps = 40;
+  auto poses = disturbed(s, 0.02, 0.1, 4);
+  adjust_poses(s.scans, all_pairs(4), 0, s.resolutions, no_programs, {}, {}, poses);
+  auto again = poses;
+  const AdjustmentRecord record =
+      adjust_poses(s.scans, all_pairs(4), 0, s.resolutions, no_programs, {}, {}, again, StartingPoses::kAdjusted);
+  EXPECT_LE(record.num_steps, 2);
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    EXPECT_LE(testing::pose_rmse_m(poses[i], again[i], s.scene.scans[i].points), 0.001);
+  }
+}
+
 TEST(AdjustPoses, AScanWithoutLinksStays) {
   const PreparedScene s = scene({.num_scans = 3, .points_per_scan = 3000}, 3);
   auto poses = disturbed(s, 0.02, 0.1, 3);

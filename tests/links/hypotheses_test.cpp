@@ -142,13 +142,13 @@ TEST_F(HypothesisSetTest, WhatTheSetsPosesConfirmMakesItsOtherHypothesesLikelier
   const PairGraph graph = set_->graph({true, true, true, true}, {});
   Component loop = component_of_one(0, 4);
   for (const std::size_t i : {1, 2}) loop.T_reference_scan[i] = T_[0].inverse() * T_[i];
-  EXPECT_TRUE(set_->learn_constant({loop}, {weakest_cuts(graph, loop)}, kSetSpread));
+  EXPECT_TRUE(set_->learn_constants({loop}, {weakest_cuts(graph, loop)}, kSetSpread));
   const double constant = set_->reference().constant;
   EXPECT_GT(constant, 0);
   set_->score();
   EXPECT_DOUBLE_EQ(set_->log_odds(0, 3), before + constant);
   EXPECT_DOUBLE_EQ(set_->log_odds(0, 1), of_loop + constant);
-  EXPECT_FALSE(set_->learn_constant({loop}, {weakest_cuts(graph, loop)}, kSetSpread))
+  EXPECT_FALSE(set_->learn_constants({loop}, {weakest_cuts(graph, loop)}, kSetSpread))
       << "learnt from what the hypotheses are by themselves";
 }
 
@@ -158,8 +158,36 @@ TEST_F(HypothesisSetTest, WhatTheSetsPosesContradictMakesItsOtherHypothesesUnlik
   Component elsewhere = component_of_one(0, 4);
   for (const std::size_t i : {1, 2}) elsewhere.T_reference_scan[i] = T_[0].inverse() * T_[i];
   const auto cuts = weakest_cuts(set_->graph({true, true, true, true}, {}), elsewhere);
-  set_->learn_constant({elsewhere}, {cuts}, kSetSpread);
+  set_->learn_constants({elsewhere}, {cuts}, kSetSpread);
   EXPECT_LT(set_->reference().constant, 0);
+}
+
+// What is searched for scans that were left is wrong more often; that says nothing of what the first search found.
+TEST_F(HypothesisSetTest, LaterHypothesesTeachAConstantOfTheirOwn) {
+  for (const auto& [a, b] : Pairs{{0, 1}, {0, 2}, {1, 2}}) set_->add(a, b, {aside(a, b, 0, 0.1)});
+  set_->score();
+  Component loop = component_of_one(0, 4);
+  for (const std::size_t i : {1, 2}) loop.T_reference_scan[i] = T_[0].inverse() * T_[i];
+  const auto cuts = weakest_cuts(set_->graph({true, true, true, true}, {}), loop);
+  const auto learn = [&] {
+    set_->learn_constants({loop}, {cuts}, kSetSpread);
+    return set_->reference();
+  };
+  const SetReference first = learn();
+  EXPECT_EQ(first.later_constant, 0) << "there are none";
+  LinkHypothesis later = aside(1, 2, 30);
+  later.is_later = true;
+  set_->add(1, 2, {later});
+  const SetReference both = learn();
+  EXPECT_NEAR(both.constant, first.constant, 0.01);
+  EXPECT_LT(both.later_constant, -0.1);
+  const double before = set_->log_odds(0, 1);
+  set_->score();
+  EXPECT_EQ(set_->reference().later_constant, both.later_constant) << "scoring keeps it";
+  const auto& of_pair = set_->pairs().at({1, 2});
+  ASSERT_EQ(of_pair.size(), 2u);
+  EXPECT_NE(of_pair[0].is_later, of_pair[1].is_later);
+  EXPECT_GT(std::abs(set_->log_odds(0, 1) - before), 0) << "the constant of the first is in effect";
 }
 
 TEST_F(HypothesisSetTest, TheGraphHasThePairsOfOpenScans) {

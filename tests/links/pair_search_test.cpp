@@ -220,6 +220,22 @@ TEST(PairSearch, ManyScansAreTriedWithTheirLikeliestPartnersFirst) {
   EXPECT_EQ(set.pairs().size(), kAll - 1) << "one that is still wanted gets all others in the end";
 }
 
+// Of smaller sets each call is another method.
+TEST(PairSearch, AFewScansOfALargeSetAreTriedByAllMethodsAtOnce) {
+  constexpr std::size_t kAll = 26;
+  Rng rng = make_stream(7, "pair_search_test");
+  const PreparedScene s = testing::prepared_scene({.num_scans = kAll, .points_per_scan = 800}, rng);
+  PairSearch search(s.scans, kOptions, kContext);
+  HypothesisSet set = no_hypotheses(s);
+  std::vector<bool> wanted(kAll, false);
+  wanted[3] = true;
+  for (const std::size_t partners : {6, 12, 24}) {
+    ASSERT_TRUE(search.extend(wanted, apart(kAll), set)) << partners;
+    EXPECT_EQ(set.pairs().size(), partners);
+  }
+  EXPECT_FALSE(search.extend(wanted, apart(kAll), set)) << "that it has 24 partners is enough";
+}
+
 TEST(PairSearch, AStrangersPosesAreLessLikelyThanThoseOfScansOfOnePlace) {
   PreparedScene s = yard(2, 4);
   Rng rng = make_stream(4, "pair_search_test rubble");

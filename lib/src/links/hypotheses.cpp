@@ -55,25 +55,26 @@ void HypothesisSet::score() {
   for (const auto& [pair, hypotheses] : pairs_) {
     for (const auto& h : hypotheses) all.push_back(h.measurements);
   }
-  const double constant = reference_.constant;
+  const double constant = reference_.constant, later_constant = reference_.later_constant;
   reference_ = SetReference::of(voxel_m_, noise_m_, all);
   reference_.constant = constant;
+  reference_.later_constant = later_constant;
   for (auto& [pair, hypotheses] : pairs_) {
     for (auto& h : hypotheses) {
       h.second_best_ratio = second_best_ratio(h, hypotheses, moments_[pair.second], same_m());
-      h.log_odds =
-          constant + hypothesis_log_odds(link_features(
-                         h.measurements,
-                         SearchMeasurements{h.candidate.method, h.candidate.margin, h.second_best_ratio}, reference_));
+      h.log_odds = constant_of(h) +
+                   hypothesis_log_odds(link_features(
+                       h.measurements, SearchMeasurements{h.candidate.method, h.candidate.margin, h.second_best_ratio},
+                       reference_));
     }
     std::stable_sort(hypotheses.begin(), hypotheses.end(),
                      [](const LinkHypothesis& x, const LinkHypothesis& y) { return x.log_odds > y.log_odds; });
   }
 }
 
-bool HypothesisSet::learn_constant(const std::vector<Component>& components, const std::vector<std::vector<Cut>>& cuts,
-                                   double set_spread) {
-  std::vector<JudgedHypothesis> judged;
+bool HypothesisSet::learn_constants(const std::vector<Component>& components, const std::vector<std::vector<Cut>>& cuts,
+                                    double set_spread) {
+  std::vector<JudgedHypothesis> first, later;
   for (std::size_t c = 0; c < components.size(); ++c) {
     const Component& component = components[c];
     const Leads leads(cuts[c], moments_.size());
@@ -85,13 +86,16 @@ bool HypothesisSet::learn_constant(const std::vector<Component>& components, con
       for (const auto& h : hypotheses) {
         if (is_implied(h)) continue;  // agrees with poses right or wrong
         const bool right = rms_displacement((T[a]->inverse() * *T[b]).inverse() * h.T_a_b, moments_[b]) < same_m();
-        judged.push_back({h.log_odds - reference_.constant, right, sure});
+        (h.is_later ? later : first).push_back({h.log_odds - constant_of(h), right, sure});
       }
     }
   }
-  const double before = reference_.constant;
-  reference_.constant = set_constant(judged, set_spread);
-  return std::abs(reference_.constant - before) > kSameConstant;
+  const double constant = set_constant(first, set_spread), later_constant = set_constant(later, set_spread);
+  const double change =
+      std::max(std::abs(constant - reference_.constant), std::abs(later_constant - reference_.later_constant));
+  reference_.constant = constant;
+  reference_.later_constant = later_constant;
+  return change > kSameConstant;
 }
 
 double HypothesisSet::log_odds(std::size_t a, std::size_t b) const {

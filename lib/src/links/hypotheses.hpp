@@ -21,6 +21,7 @@ struct LinkHypothesis {
   Eigen::Isometry3d T_a_b = Eigen::Isometry3d::Identity();  ///< local frames
   PoseCandidate candidate;                                  ///< what the fit started from
   LinkMeasurements measurements;
+  bool is_later = false;         ///< found for a scan that the first search of the set left without a clear place
   double second_best_ratio = 0;  ///< SearchMeasurements::second_best_ratio
   double log_odds = 0;           ///< that it is right, by the pair and what its set usually shows
 };
@@ -38,13 +39,15 @@ class HypothesisSet {
   void score();
 
   /// Learns from the hypotheses that agree with `components`, and those that contradict them, how much likelier or
-  /// unlikelier this set's are than those of other sets that look alike: one constant in all log-odds. What hangs by a
-  /// small lead counts little. score() brings it into effect. Cost: pairs times scans.
+  /// unlikelier this set's are than those of other sets that look alike: a constant in the log-odds of those that the
+  /// first search found, and another in those that were found since. Of the latter fewer are right, the more the harder
+  /// their scans are, which says nothing of the former. What hangs by a small lead counts little. score() brings them
+  /// into effect. Cost: pairs times scans.
   /// @param cuts        weakest_cuts() of each component
   /// @param set_spread  InferenceOptions::set_spread
-  /// @return whether the constant is another than before
-  bool learn_constant(const std::vector<Component>& components, const std::vector<std::vector<Cut>>& cuts,
-                      double set_spread);
+  /// @return whether a constant is another than before
+  bool learn_constants(const std::vector<Component>& components, const std::vector<std::vector<Cut>>& cuts,
+                       double set_spread);
 
   const std::map<std::pair<std::size_t, std::size_t>, std::vector<LinkHypothesis>>& pairs() const { return pairs_; }
   const SetReference& reference() const { return reference_; }
@@ -67,6 +70,10 @@ class HypothesisSet {
       const std::vector<Eigen::Isometry3d>& T_reference_scan) const;
 
  private:
+  double constant_of(const LinkHypothesis& h) const {
+    return h.is_later ? reference_.later_constant : reference_.constant;
+  }
+
   double voxel_m_, noise_m_;
   std::vector<PointMoments> moments_;
   std::map<std::pair<std::size_t, std::size_t>, std::vector<LinkHypothesis>> pairs_;

@@ -21,7 +21,7 @@ double second_best(const SearchMeasurements& search) {
 }  // namespace
 
 SetReference SetReference::of(double voxel_m, double noise_m, const std::vector<LinkMeasurements>& hypotheses) {
-  SetReference set{voxel_m, noise_m, 1, voxel_m, 0};
+  SetReference set{voxel_m, noise_m, 1, voxel_m};
   if (hypotheses.empty()) return set;
   std::vector<double> shares;
   std::vector<const AlignmentEvidence*> order;

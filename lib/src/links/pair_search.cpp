@@ -89,6 +89,7 @@ struct PairSearch::Impl {
   HeightMapSearch height_maps;
   std::map<ScanPairs::value_type, Tried> tried;  // pairs that were
   std::vector<std::size_t> reach;                // how many partners were asked for, of each scan
+  int num_extensions = 0;                        // that are done
   FeatureAlignmentOptions features;
   std::vector<DescribedScan> described;                                                   // once they are asked for
   std::optional<ScanWords> words;                                                         // the same
@@ -364,6 +365,8 @@ struct PairSearch::Impl {
       for (std::size_t i = 0; i < open.size(); ++i) {
         if (!found[i]) continue;
         const auto [a, b] = pairs[open[i]];
+        const CoarseMethod method = found[i]->candidate.method;
+        found[i]->is_later = num_extensions > 0 && method != CoarseMethod::kImplied && method != CoarseMethod::kGuess;
         fitted[{a, b}].push_back(found[i]->T_a_b);
         if (!found[i]->measurements.free_space.vetoes()) ++num_fits[open[i]];
         set.add(a, b, {*found[i]});
@@ -440,7 +443,10 @@ bool PairSearch::extend(const std::vector<bool>& wanted, const std::vector<std::
       later.insert(later.end(), now.begin(), now.end());
       std::sort(later.begin(), later.end());
     }
-    if (any) return true;
+    if (any) {
+      ++impl_->num_extensions;
+      return true;
+    }
   } while (impl_->reach_further(wanted));
   return false;
 }

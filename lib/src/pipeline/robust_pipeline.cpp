@@ -124,7 +124,7 @@ class RobustPipeline {
       for (const Component& component : components) {
         cuts.push_back(weakest_cuts(graph, component, in_.context.num_threads, kMostLead));
       }
-      if (round == kMaxLearnt || !hypotheses_->learn_constant(components, cuts, in_.options.inference.set_spread)) {
+      if (round == kMaxLearnt || !hypotheses_->learn_constants(components, cuts, in_.options.inference.set_spread)) {
         return {std::move(graph), std::move(components), std::move(cuts)};
       }
       hypotheses_->score();
@@ -310,6 +310,7 @@ class RobustPipeline {
   // What the final poses contradict is named.
   void report_hypotheses() {
     result_.set_log_odds = hypotheses_->reference().constant;
+    result_.later_log_odds = hypotheses_->reference().later_constant;
     for (const auto& [pair, found] : hypotheses_->pairs()) {
       const auto [a, b] = pair;
       const auto both = std::find_if(settled_.begin(), settled_.end(), [a = a, b = b](const SettledComponent& s) {
@@ -323,6 +324,7 @@ class RobustPipeline {
         record.candidate = h.candidate;
         record.evidence = h.measurements.evidence;
         record.free_space = h.measurements.free_space;
+        record.is_later = h.is_later;
         record.log_odds = h.log_odds;
         record.features = link_features(h.measurements,
                                         SearchMeasurements{h.candidate.method, h.candidate.margin, h.second_best_ratio},

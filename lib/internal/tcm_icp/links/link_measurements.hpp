@@ -34,7 +34,8 @@ struct SetReference {
   double noise_m = 0;             ///< [m] median deviation from a local plane
   double best_inlier_share = 1;   ///< 0.95 quantile over the hypotheses
   double typical_residual_m = 0;  ///< [m] median residual of the tenth of them with the most consensus
-  double constant = 0;            ///< added to the log-odds of all of the set's poses: HypothesisSet::learn_constant()
+  double constant = 0;            ///< added to the log-odds of all of the set's poses: HypothesisSet::learn_constants()
+  double later_constant = 0;      ///< in its place, of poses that were found for scans which the first search left
 
   /// @param hypotheses  of a whole set, right and wrong ones
   static SetReference of(double voxel_m, double noise_m, const std::vector<LinkMeasurements>& hypotheses);

@@ -44,6 +44,7 @@ struct LinkHypothesisRecord {
   PoseCandidate candidate;                                  ///< the coarse pose it came from; local frames
   AlignmentEvidence evidence;                               ///< of the pair alone
   FreeSpaceEvidence free_space;
+  bool is_later = false;    ///< found for a scan that the first search left without a clear place
   double log_odds = 0;      ///< that it is right, by the pair alone
   LinkFeatures features{};  ///< what that was told from
   HypothesisStatus status = HypothesisStatus::kOpen;

@@ -73,6 +73,7 @@ struct PipelineResult {
   double coarse_voxel_m = 0;  ///< [m] resolution scans were placed with
   double fine_voxel_m = 0;    ///< [m] resolution they were adjusted with
   double set_log_odds = 0;    ///< constant in the log-odds of all hypotheses and links, learnt from the poses
+  double later_log_odds = 0;  ///< in its place, of hypotheses for scans that the first search left
 
   bool all_registered() const;
   /// [m] The local frame, in which uncertainties and strengths are, is the common one minus this.
