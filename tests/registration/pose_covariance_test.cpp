@@ -17,7 +17,7 @@ namespace {
 using testing::JointScene;
 using testing::JointSceneOptions;
 
-constexpr PoseCovarianceOptions kOptions{.smallest_block_m = 0.25, .min_blocks_of_scan = 30};
+constexpr PoseCovarianceOptions kOptions{0.25, 30};
 
 // Huber's estimate by reweighting; matches move with the scans.
 std::vector<Twist> huber_steps(const JointScene& s, double threshold_m) {

@@ -16,8 +16,7 @@ void measure_uncertainty(const std::vector<PreparedScan>& scans, const ScanPairs
       match_pairs(scans, pairs, T_reference_scan, kGateInVoxels * resolutions.fine_m, num_threads);
   PoseCovarianceOptions options;
   options.smallest_block_m = resolutions.fine_m;
-  options.num_threads = num_threads;
-  uncertainty = estimate_uncertainty(scan_frames(scans, T_reference_scan), reference, matches, options);
+  uncertainty = estimate_uncertainty(scan_frames(scans, T_reference_scan), reference, matches, options, num_threads);
   parallel_for(num_threads, pairs.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       const std::vector<JointLink> both{matches[2 * k], matches[2 * k + 1]};
@@ -34,9 +33,9 @@ Eigen::MatrixXd joint_covariance(const std::vector<PreparedScan>& scans, const S
       match_pairs(scans, pairs, T_reference_scan, kGateInVoxels * resolutions.fine_m, num_threads);
   PoseCovarianceOptions options;
   options.smallest_block_m = resolutions.fine_m;
-  options.num_threads = num_threads;
   options.keeps_joint = true;
-  return estimate_uncertainty(scan_frames(scans, T_reference_scan), reference, matches, options).joint_covariance_m2;
+  return estimate_uncertainty(scan_frames(scans, T_reference_scan), reference, matches, options, num_threads)
+      .joint_covariance_m2;
 }
 
 }  // namespace tcm_icp

@@ -89,7 +89,6 @@ struct PairSearch::Impl {
   HeightMapSearch height_maps;
   std::map<ScanPairs::value_type, Tried> tried;  // pairs that were
   std::vector<std::size_t> reach;                // how many partners were asked for, of each scan
-  int num_extensions = 0;                        // that are done
   FeatureAlignmentOptions features;
   std::vector<DescribedScan> described;                                                   // once they are asked for
   std::optional<ScanWords> words;                                                         // the same
@@ -332,13 +331,14 @@ struct PairSearch::Impl {
       pairs.push_back(pair);
       candidates.push_back(std::move(found));
     }
-    if (!pairs.empty()) fit(pairs, candidates, set);
+    if (!pairs.empty()) fit(pairs, candidates, false, set);
     return !pairs.empty();
   }
 
   /// The most promising candidate of every pair, then the next of pairs that have no clear hypothesis yet: what the set
   /// shows by then tells which have one.
-  void fit(const ScanPairs& pairs, const std::vector<std::vector<PoseCandidate>>& candidates, HypothesisSet& set) {
+  void fit(const ScanPairs& pairs, const std::vector<std::vector<PoseCandidate>>& candidates, bool is_later,
+           HypothesisSet& set) {
     std::vector<std::vector<PoseCandidate>> queues(pairs.size());
     parallel_for(context.num_threads, pairs.size(), [&](std::size_t begin, std::size_t end) {
       for (std::size_t k = begin; k < end; ++k) {
@@ -365,8 +365,7 @@ struct PairSearch::Impl {
       for (std::size_t i = 0; i < open.size(); ++i) {
         if (!found[i]) continue;
         const auto [a, b] = pairs[open[i]];
-        const CoarseMethod method = found[i]->candidate.method;
-        found[i]->is_later = num_extensions > 0 && method != CoarseMethod::kImplied && method != CoarseMethod::kGuess;
+        found[i]->is_later = is_later;
         fitted[{a, b}].push_back(found[i]->T_a_b);
         if (!found[i]->measurements.free_space.vetoes()) ++num_fits[open[i]];
         set.add(a, b, {*found[i]});
@@ -429,13 +428,14 @@ bool PairSearch::try_implied(const std::vector<ImpliedPose>& poses, HypothesisSe
 }
 
 bool PairSearch::extend(const std::vector<bool>& wanted, const std::vector<std::size_t>& groups, HypothesisSet& set) {
+  const bool is_later = !impl_->tried.empty();
   do {
     auto pairs = impl_->pairs(wanted, groups);
     bool any = false;
     for (const Tried before : {Tried::kNothing, Tried::kHeightMaps, Tried::kFeatures}) {
       const ScanPairs& now = pairs[before];
       if (now.empty()) continue;
-      impl_->fit(now, impl_->candidates(before, now), set);
+      impl_->fit(now, impl_->candidates(before, now), is_later, set);
       for (const auto& pair : now) impl_->tried[pair] = next(before);
       any = true;
       if (!impl_->all_methods_at_once(wanted)) break;
@@ -443,10 +443,7 @@ bool PairSearch::extend(const std::vector<bool>& wanted, const std::vector<std::
       later.insert(later.end(), now.begin(), now.end());
       std::sort(later.begin(), later.end());
     }
-    if (any) {
-      ++impl_->num_extensions;
-      return true;
-    }
+    if (any) return true;
   } while (impl_->reach_further(wanted));
   return false;
 }

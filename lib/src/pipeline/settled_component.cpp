@@ -126,7 +126,7 @@ class Settling {
     out_.links.clear();
     for (std::size_t k = 0; k < out_.pairs.size(); ++k) {
       const auto [a, b] = out_.pairs[k];
-      out_.links.push_back(judge_link(a, b, link_measurements_[k], hypotheses_.reference()));
+      out_.links.push_back(judge_link(a, b, measurements_of(out_.pairs[k]), hypotheses_.reference()));
     }
     measure_uncertainty(scans_, out_.pairs, out_.component.reference, resolutions_, T, context_.num_threads,
                         out_.uncertainty, out_.links);
@@ -157,11 +157,11 @@ class Settling {
         now[k] = is_known ? known->second : MeasuredAt{T_a_b, measure_link(scans_[a], scans_[b], T_a_b)};
       }
     });
-    link_measurements_.clear();
-    for (std::size_t k = 0; k < out_.pairs.size(); ++k) {
-      link_measurements_.push_back(now[k].measurements);
-      measured_.insert_or_assign(out_.pairs[k], std::move(now[k]));
-    }
+    for (std::size_t k = 0; k < out_.pairs.size(); ++k) measured_.insert_or_assign(out_.pairs[k], std::move(now[k]));
+  }
+
+  const LinkMeasurements& measurements_of(const ScanPairs::value_type& pair) const {
+    return measured_.at(pair).measurements;
   }
 
   // The scan's points against the union of those it overlaps most with.
@@ -171,7 +171,7 @@ class Settling {
     for (std::size_t k = 0; k < out_.pairs.size(); ++k) {
       const auto [a, b] = out_.pairs[k];
       if (a != scan && b != scan) continue;
-      const LinkMeasurements& m = link_measurements_[k];
+      const LinkMeasurements& m = measurements_of(out_.pairs[k]);
       neighbors.emplace_back(-m.evidence.overlap, a == scan ? b : a);
       out.free_space += m.free_space;
     }
@@ -223,7 +223,7 @@ class Settling {
     for (std::size_t k = 0; k < out_.pairs.size(); ++k) {
       if (weakest->moves(out_.pairs[k].first) == weakest->moves(out_.pairs[k].second)) continue;
       ++m.num_across;
-      m.free_space_across += link_measurements_[k].free_space;
+      m.free_space_across += measurements_of(out_.pairs[k]).free_space;
     }
     if (!weakest->other_motion) return;
     const Eigen::Isometry3d& T = *out_.component.T_reference_scan[scan];
@@ -306,7 +306,6 @@ class Settling {
   const StepStore* steps_;
   SettledComponent out_;
   StartingPoses poses_are_ = StartingPoses::kInferred;
-  std::vector<LinkMeasurements> link_measurements_;
   std::map<ScanPairs::value_type, MeasuredAt> measured_;
   std::vector<Cut> cuts_;
 };

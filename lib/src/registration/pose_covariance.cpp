@@ -69,7 +69,8 @@ void PoseCovarianceOptions::validate() const {
 }
 
 JointUncertainty estimate_uncertainty(const std::vector<TwistFrame>& frames, std::size_t fixed,
-                                      const std::vector<JointLink>& links, const PoseCovarianceOptions& options) {
+                                      const std::vector<JointLink>& links, const PoseCovarianceOptions& options,
+                                      int num_threads) {
   options.validate();
   if (fixed >= frames.size()) throw InvalidInput("pose covariance: the fixed scan is not among the scans");
   std::vector<bool> matched(frames.size(), false);
@@ -91,7 +92,7 @@ JointUncertainty estimate_uncertainty(const std::vector<TwistFrame>& frames, std
     scatters.push_back(std::move(scatter));
     edges_m.push_back(edge_m);
   }
-  std::vector<double> ratios = sandwich.variance_ratios(scatters, options.num_threads);
+  std::vector<double> ratios = sandwich.variance_ratios(scatters, num_threads);
   const double independent = ratios.front();
   std::size_t best = 0;
   for (std::size_t k = 1; k < ratios.size(); ++k) {
@@ -105,7 +106,7 @@ JointUncertainty estimate_uncertainty(const std::vector<TwistFrame>& frames, std
   const double count = scatters[best].blocks_of_scan;
   const double scale = count > 6 ? count / (count - 6) * out.disagreement_factor * out.disagreement_factor
                                  : std::numeric_limits<double>::infinity();
-  const std::vector<Matrix6> covariances = sandwich.covariances(scatters[best], options.num_threads);
+  const std::vector<Matrix6> covariances = sandwich.covariances(scatters[best], num_threads);
   for (std::size_t i = 0; i < frames.size(); ++i) {
     if (i == fixed) {
       out.poses.push_back({frames[i].centre, Matrix6::Zero(), true});

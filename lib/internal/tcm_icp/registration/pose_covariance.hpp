@@ -39,8 +39,7 @@ struct PoseCovarianceOptions {
   double smallest_block_m = 0;          ///< [m] > 0; the resolution of the points
   std::size_t min_blocks_of_scan = 30;  ///< >= 7; larger blocks are not tried once the typical scan has fewer
   bool keeps_joint = false;             ///< the covariance of all scans together, too
-  int num_threads = 1;
-  void validate() const;  ///< throws InvalidOptions
+  void validate() const;                ///< throws InvalidOptions
 };
 
 /// Covariance H^-1 M H^-1 of Huber's estimate (Huber, 1967) at the poses the matches were found at, the fixed scan's
@@ -55,6 +54,7 @@ struct PoseCovarianceOptions {
 /// Cost: a sparse factorization and two solutions for each scan; O(N log N) in the number of matches for each of a few
 /// edges; O(n^3) in the number of scans where the joint covariance is kept. Thread-safe.
 JointUncertainty estimate_uncertainty(const std::vector<TwistFrame>& frames, std::size_t fixed,
-                                      const std::vector<JointLink>& links, const PoseCovarianceOptions& options);
+                                      const std::vector<JointLink>& links, const PoseCovarianceOptions& options,
+                                      int num_threads = 1);
 
 }  // namespace tcm_icp
