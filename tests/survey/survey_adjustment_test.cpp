@@ -291,20 +291,51 @@ TEST(SurveyAdjustment, FixedScansStayAndOthersFollow) {
   EXPECT_LT(error_m(scene, solution, 3), 6 * std::sqrt(free.trace() * 15 * 15));
 }
 
-TEST(SurveyAdjustment, NamesAKnownPoseThatContradictsTheLinks) {
+bool says(const SurveySolution& solution, const std::string& text) {
+  return std::any_of(solution.remarks.begin(), solution.remarks.end(),
+                     [&](const std::string& remark) { return remark.find(text) != std::string::npos; });
+}
+
+/// Poses of the scans 0, 1 and 2 are known; that of scan 1 is 30 cm and 3 degrees off.
+Scene scene_with_one_wrong_pose(bool is_fixed) {
   Rng rng = make_stream(10, "survey");
   Scene scene(4, 0.005, rng);
   for (const std::size_t i : {0U, 1U, 2U}) {
-    scene.observations.poses.push_back({"scan " + std::to_string(i), i, scene.true_pose(i), 1e-4, 1e-3});
+    scene.observations.poses.push_back({"scan " + std::to_string(i), i, scene.true_pose(i), 1e-4, 1e-3, is_fixed});
   }
   EXPECT_TRUE(adjust_to_survey(scene.network, scene.observations).remarks.empty());
-  scene.observations.poses[1].T_survey_scan.pretranslate(Eigen::Vector3d(0.3, 0, 0));
+  Eigen::Isometry3d& wrong = scene.observations.poses[1].T_survey_scan;
+  wrong.pretranslate(Eigen::Vector3d(0.3, 0, 0));
+  wrong.rotate(Eigen::AngleAxisd(3 * kDegree, Eigen::Vector3d::UnitX()));
+  return scene;
+}
+
+TEST(SurveyAdjustment, AnInitialPoseThatContradictsTheOthersIsNamedAndLeftOut) {
+  Scene scene = scene_with_one_wrong_pose(false);
   const SurveySolution solution = adjust_to_survey(scene.network, scene.observations);
-  ASSERT_FALSE(solution.remarks.empty());
-  bool is_named = false;
-  for (const auto& remark : solution.remarks)
-    is_named = is_named || remark.find("scan 1 contradicts") != std::string::npos;
-  EXPECT_TRUE(is_named);
+  EXPECT_TRUE(says(solution, "scan 1 contradicts links and other observations and was left out"));
+  EXPECT_EQ(solution.remarks.size(), 1U);
+  scene.observations.poses.erase(scene.observations.poses.begin() + 1);
+  const SurveySolution without = adjust_to_survey(scene.network, scene.observations);
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_LT((solution.T_survey_scan[i].matrix() - without.T_survey_scan[i].matrix()).norm(), 1e-9);
+  }
+  EXPECT_LT(error_m(scene, solution, 1), 0.05);
+}
+
+TEST(SurveyAdjustment, AFixedPoseThatContradictsTheOthersIsNamedAndKept) {
+  const Scene scene = scene_with_one_wrong_pose(true);
+  const SurveySolution solution = adjust_to_survey(scene.network, scene.observations);
+  EXPECT_TRUE(says(solution, "scan 1 contradicts links and other observations: these put it"));
+  EXPECT_FALSE(says(solution, "left out"));
+}
+
+TEST(SurveyAdjustment, OfTwoInitialPosesThatContradictEachOtherNoneIsLeftOut) {
+  Scene scene = scene_with_one_wrong_pose(false);
+  scene.observations.poses.erase(scene.observations.poses.begin());
+  const SurveySolution solution = adjust_to_survey(scene.network, scene.observations);
+  EXPECT_TRUE(says(solution, "contradicts"));
+  EXPECT_FALSE(says(solution, "left out"));
 }
 
 TEST(SurveyAdjustment, LimitsOfChiSquaredAreThoseOfTables) {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/decompositions.hpp"
 #include "tcm_icp/core/error.hpp"
 #include "tcm_icp/core/rigid_transform.hpp"
 
@@ -19,7 +20,7 @@ Axes principal_axes(const Points& points) {
   const PointMoments moments(points);
   Axes axes;
   axes.centroid = moments.mean;
-  axes.directions = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(moments.covariance).eigenvectors();
+  axes.directions = symmetric_eigen3(moments.covariance).vectors;
   if (axes.directions.determinant() < 0) axes.directions.col(0) *= -1;
   return axes;
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/decompositions.hpp"
 #include "tcm_icp/core/statistics.hpp"
 
 namespace tcm_icp {
@@ -13,7 +14,7 @@ int Envelope::num_occupied() const {
 }
 
 Eigen::Matrix3d levelling_rotation(const Eigen::Vector3d& up) {
-  return Eigen::Quaterniond::FromTwoVectors(up, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  return rotation_between(up, Eigen::Vector3d::UnitZ());
 }
 
 Envelope make_envelope(const Points& points, const Eigen::Matrix3d& R_level_scan, double cell_m) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/decompositions.hpp"
 #include "tcm_icp/core/rigid_transform.hpp"
 #include "tcm_icp/core/statistics.hpp"
 
@@ -68,7 +69,7 @@ Eigen::Isometry3d lift_pose(const HeightMap& target, const HeightMap& source, co
     const Eigen::Vector3d about(middle.x(), middle.y(), middle.z() - plane[0]);
     const Eigen::Isometry3d tilt =
         Eigen::Translation3d(about + Eigen::Vector3d(0, 0, plane[0])) *
-        Eigen::Isometry3d(Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), normal).toRotationMatrix()) *
+        Eigen::Isometry3d(rotation_between(Eigen::Vector3d::UnitZ(), normal)) *
         Eigen::Translation3d(-about);
     T_map_map = tilt * T_map_map;
   }

@@ -1,11 +1,11 @@
 #include "tcm_icp/coarse/slide_search.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <unordered_map>
 
+#include "core/decompositions.hpp"
 #include "tcm_icp/core/voxel_sampler.hpp"
 
 namespace tcm_icp {
@@ -26,7 +26,7 @@ Eigen::Matrix3d slide_axes(const Points& target_normals, const Points& source_no
     for (const auto& n : *normals) of_scan += n * n.transpose();
     if (of_scan.trace() > 0) sum += of_scan / of_scan.trace();
   }
-  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(sum).eigenvectors();
+  return symmetric_eigen3(sum).vectors;
 }
 
 // What lies across the slide.

@@ -1,10 +1,10 @@
 #include "tcm_icp/coarse/vertical.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <string>
 
+#include "core/decompositions.hpp"
 #include "envelope.hpp"
 #include "tcm_icp/core/error.hpp"
 #include "tcm_icp/core/even_sample.hpp"
@@ -32,9 +32,9 @@ Eigen::Matrix3d principal_axes(const Points& points, Eigen::Vector3d& deviations
   mean /= static_cast<double>(points.size());
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   for (const auto& p : points) covariance += (p - mean) * (p - mean).transpose();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance / static_cast<double>(points.size()));
-  deviations = solver.eigenvalues().cwiseMax(0).cwiseSqrt();
-  return solver.eigenvectors();
+  const SymmetricEigen<3> eigen = symmetric_eigen3(covariance / static_cast<double>(points.size()));
+  deviations = eigen.values.cwiseMax(0).cwiseSqrt();
+  return eigen.vectors;
 }
 
 // Mean axis of the normals within the angle, and how many they are.

@@ -53,7 +53,7 @@ void count_pairs(const Truth& truth, const Estimates& estimates, const std::vect
 }
 
 /// Mean of the two middle values where their number is even.
-double median(std::vector<double> values) {
+double exact_median(std::vector<double> values) {
   std::sort(values.begin(), values.end());
   const std::size_t n = values.size();
   return (values[(n - 1) / 2] + values[n / 2]) / 2;
@@ -68,7 +68,7 @@ void summarise(SceneScore& score) {
     translations_m.push_back(score.scans[i].error->translation_m);
   }
   if (rmses_m.empty()) return;
-  score.median = PoseError{median(rotations_deg), median(rmses_m), median(translations_m)};
+  score.median = PoseError{exact_median(rotations_deg), exact_median(rmses_m), exact_median(translations_m)};
   score.max_rmse_m = *std::max_element(rmses_m.begin(), rmses_m.end());
 }
 

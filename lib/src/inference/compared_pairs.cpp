@@ -1,8 +1,9 @@
 #include "inference/compared_pairs.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+
+#include "core/decompositions.hpp"
 
 namespace tcm_icp {
 namespace {
@@ -49,8 +50,8 @@ PairGraph::PairGraph(std::vector<ComparedPair> pairs, std::vector<PointMoments> 
     of_scan_[pairs_[k].b].push_back(k);
   }
   for (const PointMoments& points : moments_) {
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(points.covariance, Eigen::EigenvaluesOnly);
-    least_spread_m_.push_back(std::sqrt(std::max(0.0, axes.eigenvalues().head<2>().sum())));
+    const SymmetricEigen<3> axes = symmetric_eigen3(points.covariance);
+    least_spread_m_.push_back(std::sqrt(std::max(0.0, axes.values.head<2>().sum())));
   }
 }
 

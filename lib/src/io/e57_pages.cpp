@@ -4,13 +4,14 @@
 #include <array>
 #include <cstring>
 
+#include "e57_layout.hpp"
 #include "little_endian.hpp"
 #include "tcm_icp/core/error.hpp"
 
 namespace tcm_icp {
 namespace {
 
-constexpr std::size_t kFileHeader = 48, kCheckSum = 4;
+constexpr std::size_t kCheckSum = 4;
 constexpr std::size_t kLargestPage = std::size_t{1} << 20U;  // [bytes] the standard has 1024 for all files
 constexpr std::size_t kLoad = std::size_t{1} << 18U;         // [bytes] pages read at once: few calls, little memory
 
@@ -86,19 +87,19 @@ void E57Pages::fail(const std::string& place, const std::string& problem) const 
 }
 
 void E57Pages::read_header() {
-  std::array<std::byte, kFileHeader> bytes;
-  if (size_ < kFileHeader || stream_->read(bytes.data(), bytes.size()) != bytes.size() ||
+  std::array<std::byte, kE57FileHeader> bytes;
+  if (size_ < kE57FileHeader || stream_->read(bytes.data(), bytes.size()) != bytes.size() ||
       std::memcmp(bytes.data(), "ASTM-E57", 8) != 0) {
     throw InputError(path_, "byte 0", "is not an E57 file: it does not begin with 'ASTM-E57'",
                      "give the file the extension of its format");
   }
-  stream_at_ = kFileHeader;
+  stream_at_ = kE57FileHeader;
   const auto major = load<std::uint32_t>(bytes.data() + 8);
   if (major != 1) fail("byte 8", "is of version " + std::to_string(major) + "; 1 is known");
   const auto length = load<std::uint64_t>(bytes.data() + 16), page_size = load<std::uint64_t>(bytes.data() + 40);
   xml_offset_ = load<std::uint64_t>(bytes.data() + 24);
   xml_length_ = load<std::uint64_t>(bytes.data() + 32);
-  if (page_size < 2 * kFileHeader || page_size > kLargestPage) {
+  if (page_size < 2 * kE57FileHeader || page_size > kLargestPage) {
     fail("byte 40", "has pages of " + std::to_string(page_size) + " bytes; 1024 is usual");
   }
   page_size_ = static_cast<std::size_t>(page_size);

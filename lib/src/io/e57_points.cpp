@@ -6,13 +6,13 @@
 #include <limits>
 #include <string>
 
+#include "e57_layout.hpp"
 #include "little_endian.hpp"
 #include "tcm_icp/core/error.hpp"
 
 namespace tcm_icp {
 namespace {
 
-constexpr std::size_t kSectionHeader = 32, kPacketHeader = 6;
 constexpr std::size_t kSlack = 16;  // [bytes] behind a column's, so that a value may be loaded as two words
 // [bytes] of one column that wait for the others. Writers cut all columns at the same points, or nearly so.
 constexpr std::size_t kMostWaiting = std::size_t{1} << 26U;
@@ -68,7 +68,7 @@ void E57Points::check_room(const E57Scan& scan) const {
 
 void E57Points::read_section(const E57Scan& scan) {
   const std::uint64_t begin = pages_.logical(scan.points_offset, "a scan's points");
-  std::array<std::byte, kSectionHeader> header;
+  std::array<std::byte, kE57SectionHeader> header;
   pages_.seek(begin);
   pages_.read(header.data(), header.size());
   if (header[0] != std::byte{1}) {
@@ -83,20 +83,20 @@ void E57Points::read_section(const E57Scan& scan) {
 /// Appends what the next packet has of each wanted column.
 void E57Points::read_packet() {
   for (;;) {
-    if (next_packet_ + kPacketHeader > end_) {
+    if (next_packet_ + kE57PacketHeader > end_) {
       fail("end after about " + std::to_string(num_read_) + " of " + std::to_string(num_points_));
     }
-    std::array<std::byte, kPacketHeader> header;
+    std::array<std::byte, kE57PacketHeader> header;
     pages_.seek(next_packet_);
     pages_.read(header.data(), header.size());
     const std::size_t length = std::size_t{load<std::uint16_t>(header.data() + 2)} + 1;
-    if (length < kPacketHeader || length > end_ - next_packet_) fail("a packet is longer than their section");
+    if (length < kE57PacketHeader || length > end_ - next_packet_) fail("a packet is longer than their section");
     next_packet_ += length;
     const auto type = std::to_integer<int>(header[0]);
     if (type == 0 || type == 2) continue;  // an index, or nothing
     if (type != 1) fail("a packet is of the unknown type " + std::to_string(type));
     if (load<std::uint16_t>(header.data() + 4) != num_fields_) fail("a packet has another number of columns");
-    packet_.resize(length - kPacketHeader);
+    packet_.resize(length - kE57PacketHeader);
     pages_.read(packet_.data(), packet_.size());
     break;
   }

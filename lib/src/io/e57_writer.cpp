@@ -5,13 +5,13 @@
 #include <string_view>
 #include <utility>
 
+#include "e57_layout.hpp"
 #include "scalar.hpp"
 #include "tcm_icp/core/error.hpp"
 
 namespace tcm_icp {
 namespace {
 
-constexpr std::size_t kFileHeader = 48, kSectionHeader = 32, kPacketHeader = 6;
 constexpr std::size_t kLargestPacket = 65536, kMostIndexEntries = 2048;  // of an index packet
 
 /// Fields of the standard, and of its extension for normals, by our names.
@@ -52,7 +52,7 @@ std::string element_name(std::string_view name) {
 }  // namespace
 
 E57Writer::E57Writer(std::filesystem::path path) : pages_(std::move(path)) {
-  pages_.put(std::string(kFileHeader, '\0'));
+  pages_.put(std::string(kE57FileHeader, '\0'));
 }
 
 E57Column E57Writer::column_of(const RecordColumn& record, const std::vector<E57Column>& others) {
@@ -89,7 +89,7 @@ void E57Writer::check_size(Scan& scan) const {
     bits += column.coding == E57Coding::kFlag ? 1 : 8 * scalar_size(column.type);
   }
   constexpr std::size_t kStep = 8;  // so that every column of a full packet ends with a byte
-  const std::size_t head = kPacketHeader + 2 * scan.columns.size();
+  const std::size_t head = kE57PacketHeader + 2 * scan.columns.size();
   const std::size_t room = head < kLargestPacket ? kLargestPacket - head : 0;
   scan.packet_points = std::min(8 * room / std::max<std::size_t>(bits, 1) / kStep * kStep, kLargestPacket / 2);
   if (scan.packet_points == 0) {
@@ -112,7 +112,7 @@ void E57Writer::begin_scan(const std::string& name, const Eigen::Isometry3d& T_f
   scan.digest.add(&number, sizeof number);
   scan.digest.add(name.data(), name.size());
   scan.digest.add(T_file_scan.matrix().data(), 16 * sizeof(double));
-  pages_.put(std::string(kSectionHeader, '\0'));
+  pages_.put(std::string(kE57SectionHeader, '\0'));
   scans_.push_back(std::move(scan));
 }
 
@@ -156,11 +156,11 @@ void E57Writer::write_packet(const std::byte* records, std::size_t count) {
     append(body, static_cast<std::uint16_t>(packet_.size() - begin));
   }
   body += packet_;
-  while ((kPacketHeader + body.size()) % 4 != 0) body += '\0';
+  while ((kE57PacketHeader + body.size()) % 4 != 0) body += '\0';
   std::string header;
   append(header, std::uint8_t{1});  // of data
   append(header, std::uint8_t{0});
-  append(header, static_cast<std::uint16_t>(kPacketHeader + body.size() - 1));
+  append(header, static_cast<std::uint16_t>(kE57PacketHeader + body.size() - 1));
   append(header, static_cast<std::uint16_t>(scan.columns.size()));
   scan.packets.push_back(pages_.offset());
   pages_.put(header);
@@ -188,7 +188,7 @@ void E57Writer::end_scan() {
   const Scan& scan = scans_.back();
   if (!waiting_.empty()) write_packet(waiting_.data(), waiting_.size() / scan.record_size);
   waiting_.clear();
-  std::uint64_t index = 0, data = scan.offset + kSectionHeader;
+  std::uint64_t index = 0, data = scan.offset + kE57SectionHeader;
   if (!scan.packets.empty()) {
     index = pages_.offset();
     data = scan.packets.front();

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t kShortestHeader = 227, kHeader14 = 375;
 constexpr std::array<std::size_t, 11> kPointSizes{20, 28, 26, 34, 57, 63, 30, 36, 38, 59, 67};
-constexpr std::size_t kVlrHeader = 54, kEvlrHeader = 60, kExtraEntry = 192;
+constexpr std::size_t kVlrHeader = 54, kEvlrHeader = 60;
 constexpr std::uint16_t kExtraBytesId = 4, kWellKnownTextId = 2112, kGeoKeysId = 34735;  // of records
 
 enum class RecordKind { kExtraBytes, kWellKnownText, kGeoKeys, kOther };
@@ -164,7 +164,7 @@ class Parser {
 
   void use(RecordKind kind, const std::byte* content, std::size_t length) {
     if (kind == RecordKind::kExtraBytes) {
-      for (std::size_t at = 0; at + kExtraEntry <= length; at += kExtraEntry) add_extra(content + at);
+      for (std::size_t at = 0; at + kLasExtraEntry <= length; at += kLasExtraEntry) add_extra(content + at);
     } else if (kind == RecordKind::kWellKnownText) {
       const std::string_view text(reinterpret_cast<const char*>(content), length);
       header_.coordinate_system = text.substr(0, text.find('\0'));

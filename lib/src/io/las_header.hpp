@@ -11,6 +11,8 @@
 
 namespace tcm_icp {
 
+constexpr std::size_t kLasExtraEntry = 192;  // [bytes] that describe one of the extra numbers of points
+
 /// One number of the bytes that a file has behind each point.
 struct LasExtra {
   std::string name;

@@ -20,7 +20,7 @@
 namespace tcm_icp {
 namespace {
 
-constexpr std::size_t kHeaderSize = 375, kRecordHeader = 54, kExtraEntry = 192, kMostExtras = 65535 / kExtraEntry;
+constexpr std::size_t kHeaderSize = 375, kRecordHeader = 54, kMostExtras = 65535 / kLasExtraEntry;
 constexpr std::uint16_t kExtraBytes = 4, kWellKnownText = 2112;           // by which records are called
 constexpr std::size_t kIntensityAt = 12, kSourceAt = 20, kColourAt = 30;  // in a point
 constexpr const char* kRemedy = "use --format ply";
@@ -265,7 +265,7 @@ class LasSink : public CloudSink {
   std::string extra_bytes() const {
     std::string record;
     for (const Attribute& extra : extras_) {
-      std::string entry(kExtraEntry, '\0');
+      std::string entry(kLasExtraEntry, '\0');
       entry[2] = static_cast<char>(extra_type(extra.type));
       std::memcpy(entry.data() + 4, extra.name.data(), extra.name.size());
       record += entry;

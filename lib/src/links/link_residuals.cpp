@@ -1,11 +1,12 @@
 #include "tcm_icp/links/link_residuals.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <map>
+
+#include "core/decompositions.hpp"
 
 namespace tcm_icp {
 namespace {
@@ -37,14 +38,14 @@ Key key_of(const Eigen::Vector3d& point, double cell_m) {
 LinkContact on_surface(const std::vector<JointLink>& links, double cell_m, const Key& key, const Cell& cell) {
   constexpr double kSameNormal = 0.9;  // cosine
   const std::size_t n = cell.num_matches[0] + cell.num_matches[1];
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(cell.normals);
+  const Eigen::Vector3d normal = symmetric_eigen3(cell.normals).vectors.col(2);
   const Eigen::Vector3d middle = cell.sum / static_cast<double>(n);
-  LinkContact out{middle, axes.eigenvectors().col(2), n};
+  LinkContact out{middle, normal, n};
   double nearest = std::numeric_limits<double>::infinity();
   for (const JointLink& link : links) {
     for (const Correspondence& m : link.matches) {
       const double distance = (m.source - middle).squaredNorm();
-      if (distance >= nearest || std::abs(m.normal.dot(axes.eigenvectors().col(2))) < kSameNormal ||
+      if (distance >= nearest || std::abs(m.normal.dot(normal)) < kSameNormal ||
           key_of(m.source, cell_m) != key) {
         continue;
       }

@@ -158,7 +158,7 @@ class SurveyFrame {
       if (is_fixed(i)) {
         const double radius_m = std::sqrt(scans_[i].moments.covariance.trace());
         out.poses.push_back({in_.files[i], k, Eigen::Translation3d(-record_.origin) * *T_init_[i],
-                             radius_m > 0 ? kFixedSigma_m / radius_m : kFixedSigma_m, kFixedSigma_m});
+                             radius_m > 0 ? kFixedSigma_m / radius_m : kFixedSigma_m, kFixedSigma_m, true});
       } else if (const PosePrior* const prior = prior_of(i)) {
         out.poses.push_back({in_.files[i], k, Eigen::Translation3d(-record_.origin) * *T_init_[i],
                              prior->sigma_rotation_rad, prior->sigma_position_m});
@@ -211,9 +211,9 @@ class SurveyFrame {
     add(by_points, "control points");
     add(by_scanners, "positions of scanners");
     const bool by_fixed = std::any_of(observed.poses.begin(), observed.poses.end(),
-                                      [](const PoseObservation& p) { return p.sigma_position_m == kFixedSigma_m; });
+                                      [](const PoseObservation& p) { return p.is_fixed; });
     const bool by_priors = std::any_of(observed.poses.begin(), observed.poses.end(),
-                                       [](const PoseObservation& p) { return p.sigma_position_m != kFixedSigma_m; });
+                                       [](const PoseObservation& p) { return !p.is_fixed; });
     add(by_fixed, "fixed scans");
     add(by_priors, "initial poses");
   }

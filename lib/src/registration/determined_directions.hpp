@@ -2,7 +2,8 @@
 // Which directions of the unknowns a system of rows says anything about.
 
 #include <Eigen/Core>
-#include <Eigen/Eigenvalues>
+
+#include "core/decompositions.hpp"
 
 namespace tcm_icp {
 
@@ -10,11 +11,11 @@ namespace tcm_icp {
 /// Directions weaker than `tolerance` times the strongest count as undetermined, so the columns must be in one unit.
 inline Eigen::MatrixXd determined_directions(const Eigen::MatrixXd& A, double tolerance) {
   const Eigen::MatrixXd gram = A.transpose() * A;
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(gram);
-  const double threshold = tolerance * tolerance * eigen.eigenvalues().maxCoeff();
-  const Eigen::Index rank = (eigen.eigenvalues().array() > threshold).count();
+  const SymmetricEigen<Eigen::Dynamic> eigen = symmetric_eigen(gram);
+  const double threshold = tolerance * tolerance * eigen.values.maxCoeff();
+  const Eigen::Index rank = (eigen.values.array() > threshold).count();
   if (rank == gram.cols()) return Eigen::MatrixXd::Identity(rank, rank);
-  return eigen.eigenvectors().rightCols(rank);  // eigenvalues ascend
+  return eigen.vectors.rightCols(rank);  // eigenvalues ascend
 }
 
 }  // namespace tcm_icp

@@ -1,12 +1,12 @@
 #include "tcm_icp/registration/pose_covariance.hpp"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <string>
 
+#include "core/decompositions.hpp"
 #include "registration/link_scores.hpp"
 #include "registration/score_sandwich.hpp"
 #include "tcm_icp/core/error.hpp"
@@ -46,7 +46,7 @@ double disagreement(const std::vector<JointLink>& links, double threshold_m, dou
 PoseUncertainty pose_of(const Matrix6& covariance_m2, const TwistFrame& frame) {
   PoseUncertainty pose;
   pose.centre = frame.centre;
-  const double largest = Eigen::SelfAdjointEigenSolver<Matrix6>(covariance_m2).eigenvalues()[5];
+  const double largest = symmetric_eigen6(covariance_m2).values[5];
   pose.determined = largest < frame.radius_m * frame.radius_m;  // written so that NaN fails
   if (!pose.determined) return pose;
   Twist units;

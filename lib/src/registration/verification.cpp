@@ -1,11 +1,11 @@
 #include "tcm_icp/registration/verification.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
 
+#include "core/decompositions.hpp"
 #include "tcm_icp/core/error.hpp"
 #include "tcm_icp/core/rigid_transform.hpp"
 #include "tcm_icp/core/statistics.hpp"
@@ -102,7 +102,7 @@ AlignmentEvidence verify_alignment(const Cloud& held_out, const PyramidLevel& ta
   evidence.median_residual_m = median(tally.residuals_m);
   if (!options.with_slides) return evidence;
 
-  const Eigen::SelfAdjointEigenSolver<Information> axes(tally.information);
+  const SymmetricEigen<6> axes = symmetric_eigen6(tally.information);
   const auto left_of = [&](const Cloud& points, std::size_t agreeing, const Twist& step) {
     double left = 0;
     for (const double sign : {-1.0, 1.0}) {
@@ -111,7 +111,7 @@ AlignmentEvidence verify_alignment(const Cloud& held_out, const PyramidLevel& ta
     }
     return left;
   };
-  const auto slide = [&](int k) -> Twist { return options.slide_m * axes.eigenvectors().col(k); };
+  const auto slide = [&](int k) -> Twist { return options.slide_m * axes.vectors.col(k); };
   int weakest = 0;
   double most_left = -1;
   for (int k = 0; k < 6; ++k) {

@@ -13,7 +13,6 @@ using Eigen::AlignedBox2d;
 using Eigen::Isometry3d;
 using Eigen::Vector2d;
 
-constexpr double kPlaster = 0.7;
 constexpr double kSteel = 0.3;
 
 /// A wall of `width_m` along x that faces -y, with doors of `half_door_m` evenly along it; none where there are 0.

@@ -16,9 +16,7 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr double kFloor = 0.4;
-constexpr double kPlaster = 0.7;
-constexpr double kConcrete = 0.5;
-constexpr double kGlass = 0.05;
+constexpr double kBayGlass = 0.05;
 
 void add_sheet(TriangleMesh& mesh, const AlignedBox2d& area, double z, double reflectivity) {
   const Vector2d low = area.min(), high = area.max();
@@ -128,7 +126,7 @@ class Shell {
     const double middle = plan_.bay_m / 2, half = plan_.half_window_m, height = plan_.storey_m - BayPlan::kSlab_m;
     const Panel panel{AlignedBox2d(Vector2d(0, 0), Vector2d(plan_.bay_m, height)),
                       AlignedBox2d(Vector2d(middle - half, plan_.sill_m), Vector2d(middle + half, height - 0.45)), 0.2};
-    add_panel(mesh_, T_world_wall, panel, kPlaster, kGlass);
+    add_panel(mesh_, T_world_wall, panel, kPlaster, kBayGlass);
     add_box(mesh_, T_world_wall, box(middle - 0.6, middle + 0.6, -0.14, -0.04, 0.12, 0.65), 0.6);
   }
 

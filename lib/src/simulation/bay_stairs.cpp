@@ -11,7 +11,6 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-constexpr double kConcrete = 0.5;
 constexpr double kMetal = 0.35;
 
 /// Posts and two rails between two places on floors or steps.

@@ -16,7 +16,7 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr double kFooting_m = 1.2;
-constexpr double kGlass = 0.06;
+constexpr double kFacadeGlass = 0.06;
 constexpr double kShutter = 0.45;
 
 AlignedBox2d area(double x0, double x1, double z0, double z1) { return {Vector2d(x0, z0), Vector2d(x1, z1)}; }
@@ -70,7 +70,7 @@ class Facade {
         const double height = is_gateway ? top - 0.5 : 2.2;
         opening(cell, area(middle - half, middle + half, 0.02, height), 0, is_gateway ? 4 : 0.3, 0.35);
       } else if (style_.has_shops) {
-        opening(cell, area(x0 + 0.2, x1 - 0.2, 0.4, top - 0.8), 0, 0.15, 2 * kGlass);
+        opening(cell, area(x0 + 0.2, x1 - 0.2, 0.4, top - 0.8), 0, 0.15, 2 * kFacadeGlass);
         if (uniform01(rng_) < 0.35) {
           const double reach = uniform(rng_, 0.6, 1.6);
           box(x0 + 0.1, x1 - 0.1, -reach, 0, top - 0.75, top - 0.65);
@@ -118,7 +118,7 @@ class Facade {
     const double half = std::min(style_.window_width_m / 2, 0.45 * cell.sizes().x());
     const double top = std::min(sill + style_.window_height_m, cell.max().y() - 0.15);
     opening(cell, area(middle - half, middle + half, sill, top), y, is_shut ? 0.05 : style_.recess_m,
-            is_shut ? kShutter : kGlass);
+            is_shut ? kShutter : kFacadeGlass);
   }
 
   /// A slab and a railing of bars that light passes between.

@@ -14,7 +14,7 @@ using Eigen::Isometry3d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kFooting_m = 1;  // walls go on below the ground, which is not level
+constexpr double kHouseFooting_m = 1;  // walls go on below the ground, which is not level
 constexpr double kGlass = 0.06;
 constexpr double kRoofOverhang_m = 0.4;
 
@@ -25,7 +25,7 @@ void add_wall(TriangleMesh& mesh, const Isometry3d& T_world_wall, const House& h
     add_quad(mesh, T_world_wall * Vector3d(x0, 0, z0), T_world_wall * Vector3d(x1, 0, z0),
              T_world_wall * Vector3d(x1, 0, z1), T_world_wall * Vector3d(x0, 0, z1), house.reflectivity);
   };
-  quad(0, width_m, -kFooting_m, 0);
+  quad(0, width_m, -kHouseFooting_m, 0);
   const int columns = std::max(1, static_cast<int>(width_m / house.cell_width_m));
   const double cell = width_m / columns;
   const int door_column = static_cast<int>(uniform_index(rng, static_cast<std::uint64_t>(columns)));

@@ -14,7 +14,7 @@ using Eigen::Translation3d;
 using Eigen::Vector3d;
 
 constexpr double kWood = 0.4;
-constexpr double kStone = 0.45;
+constexpr double kGranite = 0.45;
 
 Isometry3d raised(const Isometry3d& T, double z) { return T * Translation3d(0, 0, z); }
 
@@ -59,8 +59,8 @@ void add_boulder(TriangleMesh& mesh, const Isometry3d& T, Rng& rng) {
   for (std::size_t i = 0; i < kSides; ++i) {
     const std::size_t next = (i + 1) % kSides;
     for (std::size_t ring = 0; ring + 1 < rings.size(); ++ring)
-      add_quad(mesh, rings[ring][i], rings[ring][next], rings[ring + 1][next], rings[ring + 1][i], kStone);
-    mesh.triangles.push_back({rings.back()[i], rings.back()[next], top, kStone});
+      add_quad(mesh, rings[ring][i], rings[ring][next], rings[ring + 1][next], rings[ring + 1][i], kGranite);
+    mesh.triangles.push_back({rings.back()[i], rings.back()[next], top, kGranite});
   }
 }
 
@@ -74,8 +74,8 @@ void add_log(TriangleMesh& mesh, const Isometry3d& T, Rng& rng) {
 
 void add_fire_ring(TriangleMesh& mesh, const Isometry3d& T, Rng& rng) {
   const double radius = uniform(rng, 0.4, 0.6);
-  add_frustum(mesh, raised(T, -kObjectFooting_m), {radius, radius, kObjectFooting_m + 0.35, 14}, kStone);
-  add_frustum(mesh, raised(T, -kObjectFooting_m), {radius - 0.15, radius - 0.15, kObjectFooting_m + 0.35, 14}, kStone);
+  add_frustum(mesh, raised(T, -kObjectFooting_m), {radius, radius, kObjectFooting_m + 0.35, 14}, kGranite);
+  add_frustum(mesh, raised(T, -kObjectFooting_m), {radius - 0.15, radius - 0.15, kObjectFooting_m + 0.35, 14}, kGranite);
   add_box(mesh, T, box(-0.3, 0.3, -0.25, 0.25, 0.4, 0.43), 0.2);
 }
 
@@ -111,17 +111,17 @@ void add_jetty(TriangleMesh& mesh, const Isometry3d& T, double length_m) {
 void add_fountain(TriangleMesh& mesh, const Isometry3d& T, Rng& rng) {
   const double radius = uniform(rng, 2.2, 3.2);
   for (const double r : {radius, radius - 0.35})
-    add_frustum(mesh, raised(T, -kObjectFooting_m), {r, r, kObjectFooting_m + 0.6, 28}, kStone);
-  add_frustum(mesh, raised(T, 0.6), {radius, radius - 0.35, 0.001, 28}, kStone);
-  add_frustum(mesh, raised(T, -kObjectFooting_m), {0.3, 0.22, kObjectFooting_m + 1.9, 14}, kStone);
-  add_frustum(mesh, raised(T, 1.6), {0.2, 1.0, 0.35, 20}, kStone);
-  add_frustum(mesh, raised(T, 1.9), {0.14, 0.05, 0.7, 10}, kStone);
+    add_frustum(mesh, raised(T, -kObjectFooting_m), {r, r, kObjectFooting_m + 0.6, 28}, kGranite);
+  add_frustum(mesh, raised(T, 0.6), {radius, radius - 0.35, 0.001, 28}, kGranite);
+  add_frustum(mesh, raised(T, -kObjectFooting_m), {0.3, 0.22, kObjectFooting_m + 1.9, 14}, kGranite);
+  add_frustum(mesh, raised(T, 1.6), {0.2, 1.0, 0.35, 20}, kGranite);
+  add_frustum(mesh, raised(T, 1.9), {0.14, 0.05, 0.7, 10}, kGranite);
 }
 
 void add_statue(TriangleMesh& mesh, const Isometry3d& T, Rng& rng) {
   const double height = uniform(rng, 1.6, 2.4);
-  add_box(mesh, T, box(-0.9, 0.9, -0.7, 0.7, -kObjectFooting_m, 0.3), kStone);
-  add_box(mesh, T, box(-0.6, 0.6, -0.45, 0.45, 0.3, height), kStone);
+  add_box(mesh, T, box(-0.9, 0.9, -0.7, 0.7, -kObjectFooting_m, 0.3), kGranite);
+  add_box(mesh, T, box(-0.6, 0.6, -0.45, 0.45, 0.3, height), kGranite);
   for (const double side : {-1.0, 1.0}) {
     add_frustum(mesh, T * Translation3d(0.12, side * 0.13, height), {0.1, 0.13, 0.95, 10}, 0.25);
     const Isometry3d arm = T * Translation3d(0, side * 0.3, height + 1.5) *

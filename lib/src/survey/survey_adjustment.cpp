@@ -1,15 +1,17 @@
 #include "survey/survey_adjustment.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <set>
 #include <utility>
 
 #include "core/cross_matrix.hpp"
+#include "core/decompositions.hpp"
 #include "core/figure_text.hpp"
 #include "survey/survey_equations.hpp"
 #include "survey/survey_start.hpp"
+#include "tcm_icp/core/rigid_transform.hpp"
 
 namespace tcm_icp {
 namespace {
@@ -18,7 +20,7 @@ constexpr double kMostRotation_rad = 0.2;  // beyond it a rotation is not one sm
 constexpr double kLeastChecked = 1e-4;     // of a direction's weight: less is rounding
 constexpr int kMaxSteps = 30;
 
-/// One adjustment with some of the points.
+/// One adjustment with some of the points and poses.
 struct Fit {
   SurveyEquations equations;
   Eigen::Isometry3d T_survey_local;
@@ -39,11 +41,11 @@ Eigen::MatrixXd determined_directions(const Matrix6& normal, double radius_m) {
   const Eigen::Matrix3d rotation =
       normal.topLeftCorner<3, 3>() -
       normal.topRightCorner<3, 3>() * by_translation.ldlt().solve(normal.bottomLeftCorner<3, 3>());
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes((rotation + rotation.transpose()) / 2);
+  const SymmetricEigen<3> axes = symmetric_eigen3((rotation + rotation.transpose()) / 2);
   std::vector<Eigen::Vector3d> kept;
   for (int k = 0; k < 3; ++k) {
     const double least = 1 / std::pow(kMostRotation_rad * radius_m, 2);
-    if (axes.eigenvalues()[k] > least) kept.push_back(axes.eigenvectors().col(k));
+    if (axes.values[k] > least) kept.push_back(axes.vectors.col(k));
   }
   const auto count = static_cast<Eigen::Index>(kept.size());
   Eigen::MatrixXd Z = Eigen::MatrixXd::Zero(6, count + 3);
@@ -53,7 +55,7 @@ Eigen::MatrixXd determined_directions(const Matrix6& normal, double radius_m) {
 }
 
 Fit fit(const ScanNetwork& network, const TwistFrame& frame, const SurveyObservations& observations,
-        const std::vector<bool>& used) {
+        const UsedObservations& used) {
   Eigen::Isometry3d T = start_of_survey(network, observations, used);
   for (int step = 0;; ++step) {
     SurveyEquations equations(network, frame, observations, used, T);
@@ -91,29 +93,31 @@ struct Contradiction {
 template <int N>
 Contradiction<N> contradiction(const Eigen::Matrix<double, N, N>& weight, const Eigen::Matrix<double, N, N>& most,
                                const Eigen::Matrix<double, N, 1>& pull) {
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix<double, N, N>> axes((weight + weight.transpose()) / 2,
-                                                                                   (most + most.transpose()) / 2);
+  const SymmetricEigen<Eigen::Dynamic> axes =
+      generalized_eigen((weight + weight.transpose()) / 2, (most + most.transpose()) / 2);
   Contradiction<N> out;
   for (int k = 0; k < N; ++k) {
-    const double checked = axes.eigenvalues()[k];
+    const double checked = axes.values[k];
     if (!(checked > kLeastChecked)) continue;
-    const double pull_along = axes.eigenvectors().col(k).dot(pull);
+    const double pull_along = axes.vectors.col(k).dot(pull);
     out.test += pull_along * pull_along / checked;
-    out.error += pull_along / checked * axes.eigenvectors().col(k);
+    out.error += pull_along / checked * axes.vectors.col(k);
     ++out.directions;
   }
   return out;
 }
 
-/// That one point, or all of one name, are off by the same three numbers.
+/// That one point, or all of one name, are off by the same three numbers; or that a pose is, by six.
 struct Suspicion {
   std::vector<std::size_t> points;
-  double test = 0;  ///< chi squared
+  std::optional<std::size_t> pose;  ///< in place of points
+  double test = 0;                  ///< chi squared
   int directions = 0;
+  double off_m = 0;  ///< by what the others say
   double excess() const { return directions > 0 ? test / chi_squared_limit(directions) : 0; }
 };
 
-Suspicion suspect(const Fit& fit, std::vector<std::size_t> points) {
+Suspicion suspect_points(const Fit& fit, std::vector<std::size_t> points) {
   Eigen::Vector3d pull = Eigen::Vector3d::Zero();
   Eigen::Matrix3d weight = Eigen::Matrix3d::Zero(), most = Eigen::Matrix3d::Zero();
   for (const std::size_t a : points) {
@@ -125,22 +129,32 @@ Suspicion suspect(const Fit& fit, std::vector<std::size_t> points) {
     }
   }
   const Contradiction<3> found = contradiction<3>(weight, most, pull);
-  return {std::move(points), found.test, found.directions};
+  return {std::move(points), std::nullopt, found.test, found.directions, found.error.norm()};
+}
+
+Suspicion suspect_pose(const Fit& fit, std::size_t pose) {
+  const Eigen::Index row = fit.equations.row_of_pose[pose];
+  const Contradiction<6> found =
+      contradiction<6>(fit.P.block<6, 6>(row, row), fit.S_inverse.block<6, 6>(row, row), fit.u.segment<6>(row));
+  return {{}, pose, found.test, found.directions, found.error.norm()};
 }
 
 /// The one that exceeds its limit most first.
 std::vector<Suspicion> suspicions(const Fit& fit, const SurveyObservations& observations,
-                                  const std::vector<bool>& used) {
+                                  const UsedObservations& used) {
   const auto& points = observations.points;
   std::vector<Suspicion> out;
-  for (std::size_t k = 0; k < used.size(); ++k) {
-    if (!used[k]) continue;
-    out.push_back(suspect(fit, {k}));
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    if (!used.points[k]) continue;
+    out.push_back(suspect_points(fit, {k}));
     std::vector<std::size_t> same;
-    for (std::size_t j = 0; j < used.size(); ++j) {
-      if (used[j] && points[j].name == points[k].name) same.push_back(j);
+    for (std::size_t j = 0; j < points.size(); ++j) {
+      if (used.points[j] && points[j].name == points[k].name) same.push_back(j);
     }
-    if (same.size() > 1 && same.front() == k) out.push_back(suspect(fit, same));
+    if (same.size() > 1 && same.front() == k) out.push_back(suspect_points(fit, same));
+  }
+  for (std::size_t k = 0; k < observations.poses.size(); ++k) {
+    if (used.poses[k] && !observations.poses[k].is_fixed) out.push_back(suspect_pose(fit, k));
   }
   std::stable_sort(out.begin(), out.end(),
                    [](const Suspicion& a, const Suspicion& b) { return a.excess() > b.excess(); });
@@ -151,7 +165,8 @@ class SurveyAdjustment {
  public:
   SurveyAdjustment(const ScanNetwork& network, const SurveyObservations& observations)
       : network_(network), whole_(frame_of_network(network)), in_(observations) {
-    for (const auto& point : in_.points) used_.push_back(!point.is_check);
+    for (const auto& point : in_.points) used_.points.push_back(!point.is_check);
+    used_.poses.assign(in_.poses.size(), true);
   }
 
   SurveySolution run() {
@@ -164,12 +179,21 @@ class SurveyAdjustment {
   }
 
  private:
-  std::size_t num_names(bool of_used) const {
+  /// Given places and poses, of all that may leave or of those that did not.
+  std::size_t num_given(bool of_used) const {
     std::set<std::string> names;
     for (std::size_t k = 0; k < in_.points.size(); ++k) {
-      if (!in_.points[k].is_check && (!of_used || used_[k])) names.insert(in_.points[k].name);
+      if (!in_.points[k].is_check && (!of_used || used_.points[k])) names.insert(in_.points[k].name);
     }
-    return names.size();
+    std::size_t out = names.size();
+    for (std::size_t k = 0; k < in_.poses.size(); ++k) {
+      if (!in_.poses[k].is_fixed && (!of_used || used_.poses[k])) ++out;
+    }
+    return out;
+  }
+
+  bool has_fixed_pose() const {
+    return std::any_of(in_.poses.begin(), in_.poses.end(), [](const PoseObservation& p) { return p.is_fixed; });
   }
 
   /// False where none is left that may leave.
@@ -177,12 +201,13 @@ class SurveyAdjustment {
     const std::vector<Suspicion> worst = suspicions(best, in_, used_);
     for (const Suspicion& s : worst) {
       if (s.excess() <= 1) return false;
-      std::vector<bool> without = used_;
-      for (const std::size_t k : s.points) without[k] = false;
-      const std::vector<bool> before = std::exchange(used_, without);
-      // Who is wrong, the minority or the rest, cannot be told from half of the points on.
-      const bool is_minority = 2 * (num_names(false) - num_names(true)) < num_names(false);
-      if (is_minority && (num_names(true) > 0 || !in_.poses.empty())) {
+      UsedObservations without = used_;
+      for (const std::size_t k : s.points) without.points[k] = false;
+      if (s.pose) without.poses[*s.pose] = false;
+      const UsedObservations before = std::exchange(used_, without);
+      // Who is wrong, the minority or the rest, cannot be told from half of them on.
+      const bool is_minority = 2 * (num_given(false) - num_given(true)) < num_given(false);
+      if (is_minority && (num_given(true) > 0 || has_fixed_pose())) {
         Fit rest = fit(network_, whole_, in_, used_);
         if (rest.num_rotations() >= best.num_rotations()) {
           remark_on_others(best, s, worst);
@@ -195,10 +220,14 @@ class SurveyAdjustment {
     return false;
   }
 
+  std::string name_of(const Suspicion& s) const {
+    return s.pose ? "the initial pose of " + in_.poses[*s.pose].name : in_.points[s.points.front()].name;
+  }
+
   void remark_on_others(const Fit& fit, const Suspicion& chosen, const std::vector<Suspicion>& all) {
-    const std::string& name = in_.points[chosen.points.front()].name;
+    const std::string name = name_of(chosen);
     for (const Suspicion& s : all) {
-      const std::string& other = in_.points[s.points.front()].name;
+      const std::string other = name_of(s);
       if (other == name || s.excess() <= 1) continue;
       if (fit.chi_squared - s.test > chi_squared_limit(fit.degrees_of_freedom() - s.directions)) continue;
       say(name + " was left out as a blunder, but without " + other +
@@ -243,13 +272,13 @@ class SurveyAdjustment {
     for (std::size_t k = 0; k < in_.points.size(); ++k) {
       out_.points.push_back(predicted(f, in_.points[k]));
       SurveyPoint& point = out_.points.back();
-      point.is_used = used_[k];
-      point.is_blunder = !used_[k] && !in_.points[k].is_check;
+      point.is_used = used_.points[k];
+      point.is_blunder = !used_.points[k] && !in_.points[k].is_check;
       if (!point.is_used) continue;
       const Eigen::Index row = f.equations.row_of[k];
       point.sigma_m = residual_covariance.block<3, 3>(row, row).diagonal().cwiseMax(0).cwiseSqrt();
       point.redundancy = (f.equations.R.block<3, 3>(row, row) * f.P.block<3, 3>(row, row)).trace();
-      const Suspicion own = suspect(f, {k});
+      const Suspicion own = suspect_points(f, {k});
       point.test = own.directions > 0 ? std::optional(own.test) : std::nullopt;
     }
   }
@@ -281,15 +310,25 @@ class SurveyAdjustment {
     return out;
   }
 
-  /// How far the others put a scan from its known pose, where that is more than chance; 0 otherwise.
-  double contradiction_m(const Fit& f, std::size_t pose) const {
-    const Eigen::Index row = f.equations.row_of_pose[pose];
-    const Contradiction<6> found =
-        contradiction<6>(f.P.block<6, 6>(row, row), f.S_inverse.block<6, 6>(row, row), f.u.segment<6>(row));
-    return found.directions > 0 && found.test > chi_squared_limit(found.directions) ? found.error.norm() : 0;
+  void say(const std::string& remark) { out_.remarks.push_back(remark); }
+
+  /// Rms over the scan's points between its known pose and where it is now.
+  double distance_m(const Fit& f, const PoseObservation& known) const {
+    const TwistFrame& frame = network_.frames[known.scan];
+    const Eigen::Vector3d centre = f.T_survey_local * frame.centre;
+    const Eigen::Isometry3d off = known.T_survey_scan * out_.T_survey_scan[known.scan].inverse();
+    return std::hypot((off * centre - centre).norm(), frame.radius_m * rotation_angle_rad(off.linear()));
   }
 
-  void say(const std::string& remark) { out_.remarks.push_back(remark); }
+  void remark_on_pose(const Fit& f, std::size_t pose) {
+    const std::string name = "the initial pose of " + in_.poses[pose].name;
+    if (!used_.poses[pose]) {
+      say(name + " contradicts links and other observations and was left out: these put it " +
+          figure(distance_m(f, in_.poses[pose])) + " m from there");
+    } else if (const Suspicion s = suspect_pose(f, pose); s.excess() > 1) {
+      say(name + " contradicts links and other observations: these put it " + figure(s.off_m) + " m from there");
+    }
+  }
 
   void remark(const Fit& f) {
     if (f.num_rotations() == 0) {
@@ -299,12 +338,7 @@ class SurveyAdjustment {
           " of three rotations of the frame, about the other axes it turns as little as can be; at least three points "
           "that are not on one line are needed, or scans that are level");
     }
-    for (std::size_t k = 0; k < in_.poses.size(); ++k) {
-      const double off_m = contradiction_m(f, k);
-      if (!(off_m > 0)) continue;
-      say("the initial pose of " + in_.poses[k].name + " contradicts links and other observations: these put it " +
-          figure(off_m) + " m from there");
-    }
+    for (std::size_t k = 0; k < in_.poses.size(); ++k) remark_on_pose(f, k);
     if (f.degrees_of_freedom() == 0) {
       say("nothing is redundant: no observation is checked by the others");
     } else if (f.chi_squared > chi_squared_limit(f.degrees_of_freedom())) {
@@ -317,7 +351,7 @@ class SurveyAdjustment {
   const ScanNetwork& network_;
   const TwistFrame whole_;  ///< of all scans, in the local frame
   const SurveyObservations& in_;
-  std::vector<bool> used_;
+  UsedObservations used_;
   SurveySolution out_;
 };
 

@@ -40,6 +40,7 @@ struct PoseObservation {
   std::size_t scan = 0;
   Eigen::Isometry3d T_survey_scan = Eigen::Isometry3d::Identity();
   double sigma_rotation_rad = 0, sigma_position_m = 0;  ///< > 0; the position is that of the frame's centre
+  bool is_fixed = false;  ///< by the user's word: it is named where it contradicts the others, and not left out
 };
 
 /// A scan whose z axis is upright.
@@ -52,6 +53,11 @@ struct SurveyObservations {
   std::vector<PointObservation> points;
   std::vector<PoseObservation> poses;
   std::vector<LevelObservation> levels;
+};
+
+/// Which of the points and poses take part.
+struct UsedObservations {
+  std::vector<bool> points, poses;
 };
 
 struct SurveyPoint {
@@ -82,9 +88,10 @@ double chi_squared_limit(int degrees_of_freedom);
 
 /// Generalised least squares in the six parameters of the survey frame and the steps of all scans, which the joint
 /// adjustment's covariance weighs against the observations: scans follow control points as far as they are loose.
-/// Blunders are found by data snooping (Baarda, 1968): of all points, and of all given places together, the one that
-/// contradicts the others most leaves, as long as its squared normalised residual exceeds what chance gives once in a
-/// thousand times; then all is adjusted anew. A point stays where the frame would be less determined without it.
+/// Blunders are found by data snooping (Baarda, 1968): of all points, all given places together, and poses that are not
+/// fixed, the one that contradicts the others most leaves, as long as its squared normalised residual exceeds what
+/// chance gives once in a thousand times; then all is adjusted anew. One stays where the frame would be less determined
+/// without it, and where no more would be left than have left.
 /// Rotations that observations leave free beyond 0.2 rad are held where they turn the local frame least.
 /// @pre at least one point that is no check, or one pose
 /// Cost: O(m^3 + m n^2) for m observed coordinates and n scans, for each blunder.

@@ -19,32 +19,34 @@ TwistFrame frame_of_network(const ScanNetwork& network) {
 }
 
 SurveyEquations::SurveyEquations(const ScanNetwork& network, const TwistFrame& whole,
-                                 const SurveyObservations& observations, const std::vector<bool>& used,
+                                 const SurveyObservations& observations, const UsedObservations& used,
                                  const Eigen::Isometry3d& T_survey_local)
     : frame_{T_survey_local * whole.centre, whole.radius_m} {
-  Eigen::Index rows = 6 * static_cast<Eigen::Index>(observations.poses.size()) +
-                      2 * static_cast<Eigen::Index>(observations.levels.size());
-  row_of.assign(used.size(), -1);
-  for (const bool is_used : used) rows += is_used ? 3 : 0;
+  auto rows = 2 * static_cast<Eigen::Index>(observations.levels.size());
+  for (const bool is_used : used.points) rows += is_used ? 3 : 0;
+  for (const bool is_used : used.poses) rows += is_used ? 6 : 0;
+  row_of.assign(used.points.size(), -1);
+  row_of_pose.assign(used.poses.size(), -1);
   y = Eigen::VectorXd::Zero(rows);
   A = Eigen::MatrixXd::Zero(rows, 6);
   R = Eigen::MatrixXd::Zero(rows, rows);
   const auto& points = observations.points;
-  for (std::size_t k = 0; k < used.size(); ++k) {
-    if (!used[k]) continue;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    if (!used.points[k]) continue;
     row_of[k] = next_;
     add(network, points[k], T_survey_local);
   }
   // One given place, and one error of it, for all that have its name.
-  for (std::size_t a = 0; a < used.size(); ++a) {
-    for (std::size_t b = 0; b < used.size(); ++b) {
-      if (!used[a] || !used[b] || points[a].name != points[b].name) continue;
+  for (std::size_t a = 0; a < points.size(); ++a) {
+    for (std::size_t b = 0; b < points.size(); ++b) {
+      if (!used.points[a] || !used.points[b] || points[a].name != points[b].name) continue;
       R.block<3, 3>(row_of[a], row_of[b]).diagonal() += points[a].sigma_given_m.cwiseProduct(points[b].sigma_given_m);
     }
   }
-  for (const auto& pose : observations.poses) {
-    row_of_pose.push_back(next_);
-    add(network, pose, T_survey_local);
+  for (std::size_t k = 0; k < observations.poses.size(); ++k) {
+    if (!used.poses[k]) continue;
+    row_of_pose[k] = next_;
+    add(network, observations.poses[k], T_survey_local);
   }
   for (const auto& level : observations.levels) add(network, level, T_survey_local);
   factorize(network);

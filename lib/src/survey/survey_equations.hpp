@@ -15,11 +15,11 @@ using Matrix6 = Eigen::Matrix<double, 6, 6>;
 TwistFrame frame_of_network(const ScanNetwork& network);
 
 /// Unknowns are a step g of T_survey_local about frame_of_network(), and the steps x of all scans, whose covariance is
-/// the network's. Rows are those of the points that are used, three each in their order, then poses and levels.
+/// the network's. Rows are those of the points that are used, three each in their order, then the poses that are, and levels.
 struct SurveyEquations {
   /// @param whole  frame_of_network()
   SurveyEquations(const ScanNetwork& network, const TwistFrame& whole, const SurveyObservations& observations,
-                  const std::vector<bool>& used, const Eigen::Isometry3d& T_survey_local);
+                  const UsedObservations& used, const Eigen::Isometry3d& T_survey_local);
 
   Eigen::Index num_rows() const { return y.size(); }
 
@@ -29,7 +29,7 @@ struct SurveyEquations {
   Eigen::MatrixXd BC;                     ///< B times the covariance of x
   Eigen::LDLT<Eigen::MatrixXd> S;         ///< of R + B C B'
   std::vector<Eigen::Index> row_of;       ///< first row of each point; -1 where it is not used
-  std::vector<Eigen::Index> row_of_pose;  ///< first row of each pose
+  std::vector<Eigen::Index> row_of_pose;  ///< first row of each pose; -1 where it is not used
 
  private:
   /// A few rows that are about one scan.

@@ -1,8 +1,8 @@
 #include "survey/survey_start.hpp"
 
-#include <Eigen/SVD>
 #include <cmath>
 
+#include "core/decompositions.hpp"
 #include "tcm_icp/core/rigid_transform.hpp"
 
 namespace tcm_icp {
@@ -18,14 +18,14 @@ Eigen::Matrix3d about_vertical(const Eigen::Matrix3d& H) {
 }  // namespace
 
 Eigen::Isometry3d start_of_survey(const ScanNetwork& network, const SurveyObservations& observations,
-                                  const std::vector<bool>& used) {
-  if (!observations.poses.empty()) {
-    const PoseObservation& first = observations.poses.front();
-    return first.T_survey_scan * network.T_local_scan[first.scan].inverse();
+                                  const UsedObservations& used) {
+  for (std::size_t k = 0; k < observations.poses.size(); ++k) {
+    const PoseObservation& pose = observations.poses[k];
+    if (used.poses[k]) return pose.T_survey_scan * network.T_local_scan[pose.scan].inverse();
   }
   Points local, given;
   for (std::size_t k = 0; k < observations.points.size(); ++k) {
-    if (!used[k]) continue;
+    if (!used.points[k]) continue;
     const PointObservation& p = observations.points[k];
     local.push_back(p.scan == kNoScan ? p.measured : network.T_local_scan[p.scan] * p.measured);
     given.push_back(p.given);
@@ -35,15 +35,15 @@ Eigen::Isometry3d start_of_survey(const ScanNetwork& network, const SurveyObserv
   for (std::size_t k = 0; k < local.size(); ++k) {
     H += (given[k] - middle_given) * (local[k] - middle_local).transpose();
   }
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(H, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const Eigen::Vector3d& lengths = svd.singularValues();
+  const SingularValues3 svd = singular_values3(H);
+  const Eigen::Vector3d& lengths = svd.values;
   Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
   if (!observations.levels.empty()) {
     R = about_vertical(H);
   } else if (lengths[1] > kLine * kLine * lengths[0]) {
     R = project_onto_so3(H);
   } else if (lengths[0] > 0) {
-    R = Eigen::Quaterniond::FromTwoVectors(svd.matrixV().col(0), svd.matrixU().col(0)).toRotationMatrix();
+    R = rotation_between(svd.V.col(0), svd.U.col(0));
   }
   Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
   T.linear() = R;

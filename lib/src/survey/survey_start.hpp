@@ -7,10 +7,10 @@
 
 namespace tcm_icp {
 
-/// T_survey_local by the first known pose, or by the points that are `used`: the rotation that fits them best (Kabsch,
+/// T_survey_local by the first known pose, or by the points, that are `used`: the rotation that fits them best (Kabsch,
 /// 1976), about the vertical alone where scans are level. Points on a line turn the frame no more than the line asks
 /// for, a single one not at all.
 Eigen::Isometry3d start_of_survey(const ScanNetwork& network, const SurveyObservations& observations,
-                                  const std::vector<bool>& used);
+                                  const UsedObservations& used);
 
 }  // namespace tcm_icp

@@ -5,20 +5,13 @@
 #include <string>
 #include <vector>
 
+#include "tcm/require_two.hpp"
 #include "tcm_icp/core/error.hpp"
 #include "tcm_icp/core/even_sample.hpp"
 #include "tcm_icp/core/normals.hpp"
 
 namespace tcm_icp {
 namespace {
-
-const Points& require_two(const Points& points) {
-  if (points.size() < 2) {
-    throw InvalidInput("the robust compatibility measure needs clouds of at least 2 points, not " +
-                       std::to_string(points.size()));
-  }
-  return points;
-}
 
 double validated_quantile(const RobustTcmOptions& options) {
   options.validate();
@@ -60,7 +53,7 @@ void RobustTcmOptions::validate() const {
 }
 
 RobustTcmCloud::RobustTcmCloud(const Points& points, const RobustTcmOptions& options)
-    : index_(require_two(points)),
+    : index_(require_two(points, "the robust compatibility measure")),
       sample_(even_sample(points, options.max_samples)),
       median_spacing_m_(median_spacing(points, index_)),
       quantile_(validated_quantile(options)) {}

@@ -5,18 +5,11 @@
 #include <limits>
 #include <string>
 
+#include "tcm/require_two.hpp"
 #include "tcm_icp/core/error.hpp"
 
 namespace tcm_icp {
 namespace {
-
-const Points& require_two(const Points& points) {
-  if (points.size() < 2) {
-    throw InvalidInput("the compatibility measure needs clouds of at least 2 points, not " +
-                       std::to_string(points.size()));
-  }
-  return points;
-}
 
 Eigen::Vector3d mean(const Points& points) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -38,7 +31,7 @@ double min_squared_distance(const Points& points, const NeighborIndex& index) {
 }  // namespace
 
 TcmCloud::TcmCloud(const Points& points)
-    : index_(require_two(points)),
+    : index_(require_two(points, "the compatibility measure")),
       centroid_(mean(points)),
       min_squared_distance_m2_(min_squared_distance(points, index_)) {}
 

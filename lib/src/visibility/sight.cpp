@@ -5,7 +5,7 @@ namespace tcm_icp {
 namespace {
 
 // More nearly along the surface, noise turns the normal to either side.
-constexpr double kMinIncidenceCosine = 0.1;
+constexpr double kMinSightCosine = 0.1;
 
 }  // namespace
 
@@ -13,8 +13,8 @@ int Sight::side(const Eigen::Vector3d& point, const Eigen::Vector3d& normal) con
   bool towards = false, away = false;
   for (const auto& place : places) {
     const double cosine = normal.dot((place - point).normalized());
-    towards = towards || cosine > -kMinIncidenceCosine;
-    away = away || cosine < kMinIncidenceCosine;
+    towards = towards || cosine > -kMinSightCosine;
+    away = away || cosine < kMinSightCosine;
   }
   return towards == away ? 0 : towards ? 1 : -1;
 }

@@ -1,11 +1,12 @@
 #include "sweep_fit.hpp"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "core/decompositions.hpp"
 
 namespace tcm_icp {
 namespace {
@@ -78,7 +79,7 @@ double share_of_sweep(const Sweep& sweep, const LinePieces& pieces, double toler
 Eigen::Vector3d likely_axis(const LinePieces& pieces) {
   Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
   for (const auto& t : pieces.directions) sum += t * t.transpose();
-  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(sum).eigenvectors().col(0);
+  return symmetric_eigen3(sum).vectors.col(0);
 }
 
 Sweep fit_sweep(const Sweep& start, const LinePieces& pieces, std::size_t stride) {
@@ -94,7 +95,7 @@ Sweep fit_sweep(const Sweep& start, const LinePieces& pieces, std::size_t stride
     if (k + 1 == kSteps) {
       const Information covariance = sum.square / (sum.weight - 5) * solver.solve(Information::Identity());
       const Eigen::Matrix3d of_centre = covariance.topLeftCorner<3, 3>();
-      sweep.sigma = std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(of_centre).eigenvalues()[2]);
+      sweep.sigma = std::sqrt(symmetric_eigen3(of_centre).values[2]);
     }
     sweep.centre -= step.head<3>();
     sweep.axis = (sweep.axis - across(sweep.axis) * step.tail<2>()).normalized();

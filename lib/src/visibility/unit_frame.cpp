@@ -1,10 +1,10 @@
 #include "unit_frame.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <vector>
 
+#include "core/decompositions.hpp"
 #include "tcm_icp/core/statistics.hpp"
 
 namespace tcm_icp {
@@ -18,7 +18,7 @@ Eigen::Isometry3d principal_axes(const Points& points) {
   for (const auto& p : points) mean += p / static_cast<double>(points.size());
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   for (const auto& p : points) covariance += (p - mean) * (p - mean).transpose();
-  Eigen::Matrix3d axes = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance).eigenvectors();
+  Eigen::Matrix3d axes = symmetric_eigen3(covariance).vectors;
   if (axes.determinant() < 0) axes.col(0) = -axes.col(0);
   Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
   T.linear() = axes;
