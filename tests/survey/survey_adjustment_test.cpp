@@ -296,7 +296,7 @@ bool says(const SurveySolution& solution, const std::string& text) {
                      [&](const std::string& remark) { return remark.find(text) != std::string::npos; });
 }
 
-/// Poses of the scans 0, 1 and 2 are known; that of scan 1 is 30 cm and 3 degrees off.
+/// Poses of the scans 0, 1 and 2 are known; that of scan 1 is 0.3 m and 0.05 rad off.
 Scene scene_with_one_wrong_pose(bool is_fixed) {
   Rng rng = make_stream(10, "survey");
   Scene scene(4, 0.005, rng);
@@ -306,7 +306,7 @@ Scene scene_with_one_wrong_pose(bool is_fixed) {
   EXPECT_TRUE(adjust_to_survey(scene.network, scene.observations).remarks.empty());
   Eigen::Isometry3d& wrong = scene.observations.poses[1].T_survey_scan;
   wrong.pretranslate(Eigen::Vector3d(0.3, 0, 0));
-  wrong.rotate(Eigen::AngleAxisd(3 * kDegree, Eigen::Vector3d::UnitX()));
+  wrong.rotate(Eigen::AngleAxisd(0.05, Eigen::Vector3d::UnitX()));
   return scene;
 }
 

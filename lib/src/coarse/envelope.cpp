@@ -13,9 +13,7 @@ int Envelope::num_occupied() const {
   return static_cast<int>(std::count_if(lowest.begin(), lowest.end(), [](float h) { return !std::isnan(h); }));
 }
 
-Eigen::Matrix3d levelling_rotation(const Eigen::Vector3d& up) {
-  return rotation_between(up, Eigen::Vector3d::UnitZ());
-}
+Eigen::Matrix3d levelling_rotation(const Eigen::Vector3d& up) { return rotation_between(up, Eigen::Vector3d::UnitZ()); }
 
 Envelope make_envelope(const Points& points, const Eigen::Matrix3d& R_level_scan, double cell_m) {
   Points level(points.size());

@@ -53,7 +53,7 @@ struct ScanMaps {
   std::vector<MapSpectra> turned;                   // as a source, at the heading that is being searched
 };
 
-struct Search {
+struct HeightSearch {
   const HeightCorrelationOptions& options;
   int num_threads;
   std::vector<ScanMaps> scans;
@@ -75,7 +75,7 @@ struct Search {
 };
 
 // Those that are not known yet.
-void Search::find_footprints(const std::vector<const Cloud*>& clouds, const std::vector<std::size_t>& members) {
+void HeightSearch::find_footprints(const std::vector<const Cloud*>& clouds, const std::vector<std::size_t>& members) {
   scans.resize(clouds.size());
   parallel_for(num_threads, members.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t m = begin; m < end; ++m) {
@@ -94,7 +94,7 @@ std::vector<std::size_t> all_of(const std::vector<const Cloud*>& clouds) {
   return out;
 }
 
-void Search::choose_grid() {
+void HeightSearch::choose_grid() {
   if (options.grid.size > 0) {
     cell_m = options.grid.cell_m;
     grid_size = options.grid.size;
@@ -112,8 +112,8 @@ void Search::choose_grid() {
   grid_size = fast_size(static_cast<int>(kPadding * largest_m / cell_m));
 }
 
-void Search::make_maps(const std::vector<const Cloud*>& clouds, const std::vector<std::size_t>& members,
-                       bool for_candidates) {
+void HeightSearch::make_maps(const std::vector<const Cloud*>& clouds, const std::vector<std::size_t>& members,
+                             bool for_candidates) {
   const Fourier fourier(grid_size);
   parallel_for(num_threads, members.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t m = begin; m < end; ++m) {
@@ -133,7 +133,7 @@ void Search::make_maps(const std::vector<const Cloud*>& clouds, const std::vecto
   });
 }
 
-void Search::drop_maps(const std::vector<std::size_t>& members) {
+void HeightSearch::drop_maps(const std::vector<std::size_t>& members) {
   for (const std::size_t i : members) {
     std::vector<Footprint> footprints = std::move(scans[i].footprints);
     scans[i] = ScanMaps{};
@@ -147,8 +147,8 @@ bool wanted(const ScanPair& pair, std::size_t target_map, std::size_t source_map
          });
 }
 
-std::vector<PeakList> Search::correlate(std::span<const ScanPair> pairs, const std::vector<std::size_t>& members,
-                                        std::size_t num_peaks) {
+std::vector<PeakList> HeightSearch::correlate(std::span<const ScanPair> pairs, const std::vector<std::size_t>& members,
+                                              std::size_t num_peaks) {
   const double distinct_cells = kDistinctShare * options.cells_across;
   std::vector<PeakList> lists(pairs.size(), PeakList(num_peaks, 1.5 * heading_step_rad(), distinct_cells / 2));
   const Fourier fourier(grid_size), mask_fourier(grid_size / kMaskStep);
@@ -190,7 +190,7 @@ std::vector<PeakList> Search::correlate(std::span<const ScanPair> pairs, const s
   return lists;
 }
 
-std::vector<PoseCandidate> Search::candidates(const ScanPair& pair, const PeakList& list) const {
+std::vector<PoseCandidate> HeightSearch::candidates(const ScanPair& pair, const PeakList& list) const {
   const ScanMaps& target = scans[pair.target];
   const ScanMaps& source = scans[pair.source];
   const auto by_score = [](const MapPeak& a, const MapPeak& b) { return a.score > b.score; };
@@ -291,7 +291,7 @@ void search_in_blocks(const std::vector<const Cloud*>& scans, const std::vector<
   options.validate();
   check_pairs(scans.size(), pairs);
   if (pairs.empty()) return;
-  Search search{options, num_threads, {}};
+  HeightSearch search{options, num_threads, {}};
   if (options.grid.size == 0) search.find_footprints(scans, all_of(scans));
   search.choose_grid();
   std::vector<std::size_t> members;
@@ -311,7 +311,7 @@ void search_in_blocks(const std::vector<const Cloud*>& scans, const std::vector<
 CorrelationGrid choose_correlation_grid(const std::vector<const Cloud*>& scans, const HeightCorrelationOptions& options,
                                         int num_threads) {
   options.validate();
-  Search search{options, num_threads, {}};
+  HeightSearch search{options, num_threads, {}};
   search.find_footprints(scans, all_of(scans));
   search.choose_grid();
   return {search.cell_m, search.grid_size};
@@ -321,7 +321,7 @@ std::vector<PairScreening> screen_by_height_maps(const std::vector<const Cloud*>
                                                  const std::vector<ScanPair>& pairs,
                                                  const HeightCorrelationOptions& options, int num_threads) {
   std::vector<PairScreening> out(pairs.size());
-  const auto keep = [&](const Search&, std::size_t first, const std::vector<PeakList>& lists) {
+  const auto keep = [&](const HeightSearch&, std::size_t first, const std::vector<PeakList>& lists) {
     for (std::size_t k = 0; k < lists.size(); ++k) {
       PairScreening& pair = out[first + k];
       for (const MapPeak& peak : lists[k].peaks()) {
@@ -344,7 +344,7 @@ std::vector<std::vector<PoseCandidate>> correlate_height_maps(const std::vector<
                                                               int num_threads) {
   std::vector<std::vector<PoseCandidate>> out(pairs.size());
   search_in_blocks(scans, pairs, options, num_threads, true,
-                   [&](const Search& search, std::size_t first, const std::vector<PeakList>& lists) {
+                   [&](const HeightSearch& search, std::size_t first, const std::vector<PeakList>& lists) {
                      parallel_for(num_threads, lists.size(), [&](std::size_t begin, std::size_t end) {
                        for (std::size_t k = begin; k < end; ++k) {
                          out[first + k] = search.candidates(pairs[first + k], lists[k]);

@@ -67,10 +67,9 @@ Eigen::Isometry3d lift_pose(const HeightMap& target, const HeightMap& source, co
     const Eigen::Vector3d plane = scale_m > 0 ? fit_plane(at, difference_m, scale_m) : Eigen::Vector3d::Zero();
     const Eigen::Vector3d normal = Eigen::Vector3d(-plane[1] / scale_m, -plane[2] / scale_m, 1).normalized();
     const Eigen::Vector3d about(middle.x(), middle.y(), middle.z() - plane[0]);
-    const Eigen::Isometry3d tilt =
-        Eigen::Translation3d(about + Eigen::Vector3d(0, 0, plane[0])) *
-        Eigen::Isometry3d(rotation_between(Eigen::Vector3d::UnitZ(), normal)) *
-        Eigen::Translation3d(-about);
+    const Eigen::Isometry3d tilt = Eigen::Translation3d(about + Eigen::Vector3d(0, 0, plane[0])) *
+                                   Eigen::Isometry3d(rotation_between(Eigen::Vector3d::UnitZ(), normal)) *
+                                   Eigen::Translation3d(-about);
     T_map_map = tilt * T_map_map;
   }
   return target.T_map_scan.inverse() * T_map_map * source.T_map_scan;

@@ -12,6 +12,8 @@
 
 namespace tcm_icp {
 
+constexpr double kLeastGain = 1e-9;  // of support: less is rounding
+
 /// One pose a pair may have.
 struct PoseHypothesis {
   Eigen::Isometry3d T_a_b = Eigen::Isometry3d::Identity();

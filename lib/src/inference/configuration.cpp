@@ -11,7 +11,6 @@
 namespace tcm_icp {
 namespace {
 
-constexpr double kLeastGain = 1e-9;     // rounding is no gain
 constexpr double kLeastAverage = 0.01;  // in log-likelihood; what less moves is left to the adjustment
 
 struct Start {

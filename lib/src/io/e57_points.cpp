@@ -8,6 +8,7 @@
 
 #include "e57_layout.hpp"
 #include "little_endian.hpp"
+#include "remedies.hpp"
 #include "tcm_icp/core/error.hpp"
 
 namespace tcm_icp {
@@ -53,9 +54,7 @@ E57Points::E57Points(E57Pages& pages, const E57Scan& scan, const std::vector<std
   if (num_points_ > 0) read_section(scan);
 }
 
-void E57Points::fail(const std::string& problem) const {
-  throw InputError(pages_.path(), "points", problem, "the file is damaged: write or copy it again");
-}
+void E57Points::fail(const std::string& problem) const { throw InputError(pages_.path(), "points", problem, kDamaged); }
 
 void E57Points::check_room(const E57Scan& scan) const {
   std::uint64_t bits = 0;

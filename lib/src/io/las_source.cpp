@@ -7,6 +7,7 @@
 
 #include "attribute_names.hpp"
 #include "little_endian.hpp"
+#include "remedies.hpp"
 #include "scalar.hpp"
 #include "tcm_icp/core/error.hpp"
 
@@ -120,8 +121,7 @@ bool LasSource::next(Eigen::Vector3d& point, std::byte* attributes) {
   if (!record) {
     throw InputError(
         input_.path(), input_.byte_place(),
-        "ends after " + std::to_string(num_read_) + " of " + std::to_string(header_.num_points) + " points",
-        "the file is damaged: write or copy it again");
+        "ends after " + std::to_string(num_read_) + " of " + std::to_string(header_.num_points) + " points", kDamaged);
   }
   for (std::ptrdiff_t axis = 0; axis < 3; ++axis) {
     point[axis] = header_.scale[axis] * load<std::int32_t>(record + 4 * axis) + header_.offset[axis];

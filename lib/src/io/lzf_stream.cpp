@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 
+#include "remedies.hpp"
 #include "tcm_icp/core/error.hpp"
 
 namespace tcm_icp {
@@ -18,14 +19,13 @@ LzfStream::LzfStream(const std::filesystem::path& file, const LzfState& state)
 std::byte LzfStream::next_input() {
   if (state_.input_offset == state_.input_end) {
     throw InputError(file_, "byte " + std::to_string(state_.input_offset), "the packed data end within a piece",
-                     "the file is damaged: write or copy it again");
+                     kDamaged);
   }
   if (begin_ == end_) {
     begin_ = 0;
     end_ = stream_->read(buffer_.data(), buffer_.size());
     if (end_ == 0) {
-      throw InputError(file_, "byte " + std::to_string(state_.input_offset), "ends within its packed data",
-                       "the file is damaged: write or copy it again");
+      throw InputError(file_, "byte " + std::to_string(state_.input_offset), "ends within its packed data", kDamaged);
     }
   }
   ++state_.input_offset;
@@ -45,7 +45,7 @@ void LzfStream::next_token() {
   state_.copies = length + 2;
   if (state_.distance > state_.num_out) {
     throw InputError(file_, "byte " + std::to_string(state_.input_offset),
-                     "its packed data refer to before their start", "the file is damaged: write or copy it again");
+                     "its packed data refer to before their start", kDamaged);
   }
 }
 

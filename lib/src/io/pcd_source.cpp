@@ -7,13 +7,12 @@
 #include "attribute_names.hpp"
 #include "fields.hpp"
 #include "little_endian.hpp"
+#include "remedies.hpp"
 #include "scalar.hpp"
 #include "tcm_icp/core/error.hpp"
 
 namespace tcm_icp {
 namespace {
-
-constexpr const char* kDamaged = "the file is damaged: write or copy it again";
 
 /// The type of ours; 64-bit integers have none and become doubles.
 ScalarType type_of(char kind, std::size_t size) {

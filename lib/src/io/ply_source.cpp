@@ -6,13 +6,12 @@
 #include <utility>
 
 #include "fields.hpp"
+#include "remedies.hpp"
 #include "scalar.hpp"
 #include "tcm_icp/core/error.hpp"
 
 namespace tcm_icp {
 namespace {
-
-constexpr const char* kDamaged = "the file is damaged: write or copy it again";
 
 bool is_swapped(PlyFormat format) {
   return (format == PlyFormat::kBinaryBigEndian) == (std::endian::native == std::endian::little);

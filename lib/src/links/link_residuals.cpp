@@ -45,8 +45,7 @@ LinkContact on_surface(const std::vector<JointLink>& links, double cell_m, const
   for (const JointLink& link : links) {
     for (const Correspondence& m : link.matches) {
       const double distance = (m.source - middle).squaredNorm();
-      if (distance >= nearest || std::abs(m.normal.dot(normal)) < kSameNormal ||
-          key_of(m.source, cell_m) != key) {
+      if (distance >= nearest || std::abs(m.normal.dot(normal)) < kSameNormal || key_of(m.source, cell_m) != key) {
         continue;
       }
       nearest = distance;

@@ -210,10 +210,10 @@ class SurveyFrame {
     };
     add(by_points, "control points");
     add(by_scanners, "positions of scanners");
-    const bool by_fixed = std::any_of(observed.poses.begin(), observed.poses.end(),
-                                      [](const PoseObservation& p) { return p.is_fixed; });
-    const bool by_priors = std::any_of(observed.poses.begin(), observed.poses.end(),
-                                       [](const PoseObservation& p) { return !p.is_fixed; });
+    const bool by_fixed =
+        std::any_of(observed.poses.begin(), observed.poses.end(), [](const PoseObservation& p) { return p.is_fixed; });
+    const bool by_priors =
+        std::any_of(observed.poses.begin(), observed.poses.end(), [](const PoseObservation& p) { return !p.is_fixed; });
     add(by_fixed, "fixed scans");
     add(by_priors, "initial poses");
   }

@@ -75,7 +75,8 @@ void add_log(TriangleMesh& mesh, const Isometry3d& T, Rng& rng) {
 void add_fire_ring(TriangleMesh& mesh, const Isometry3d& T, Rng& rng) {
   const double radius = uniform(rng, 0.4, 0.6);
   add_frustum(mesh, raised(T, -kObjectFooting_m), {radius, radius, kObjectFooting_m + 0.35, 14}, kGranite);
-  add_frustum(mesh, raised(T, -kObjectFooting_m), {radius - 0.15, radius - 0.15, kObjectFooting_m + 0.35, 14}, kGranite);
+  add_frustum(mesh, raised(T, -kObjectFooting_m), {radius - 0.15, radius - 0.15, kObjectFooting_m + 0.35, 14},
+              kGranite);
   add_box(mesh, T, box(-0.3, 0.3, -0.25, 0.25, 0.4, 0.43), 0.2);
 }
 

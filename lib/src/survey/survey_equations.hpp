@@ -15,7 +15,8 @@ using Matrix6 = Eigen::Matrix<double, 6, 6>;
 TwistFrame frame_of_network(const ScanNetwork& network);
 
 /// Unknowns are a step g of T_survey_local about frame_of_network(), and the steps x of all scans, whose covariance is
-/// the network's. Rows are those of the points that are used, three each in their order, then the poses that are, and levels.
+/// the network's. Rows are those of the points that are used, three each in their order, then the poses that are, and
+/// levels.
 struct SurveyEquations {
   /// @param whole  frame_of_network()
   SurveyEquations(const ScanNetwork& network, const TwistFrame& whole, const SurveyObservations& observations,

@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "tcm_icp/core/error.hpp"
 #include "tcm_icp/core/cloud.hpp"
+#include "tcm_icp/core/error.hpp"
 
 namespace tcm_icp {
 

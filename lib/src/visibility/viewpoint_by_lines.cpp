@@ -15,7 +15,7 @@ constexpr std::size_t kFramePoints = 5000, kMinFramePoints = 200;
 
 // From a grid place, lines are off by a few tenths; from the centre by noise.
 constexpr double kGridTolerance = 0.2, kTolerance = 0.02;
-constexpr double kGridPlaces = 4000;
+constexpr double kStartPlaces = 4000;
 constexpr std::size_t kGridPieces = 400, kFitPieces = 2000, kStarts = 12;
 constexpr double kRivalDistance = 0.06;
 
@@ -48,7 +48,7 @@ void sort_by_share(std::vector<Scored>& found) {
 std::vector<Scored> search_grid_of_centres(const LinePieces& pieces, const Eigen::AlignedBox3d& box) {
   const Eigen::Vector3d axis = likely_axis(pieces);
   const std::size_t stride = stride_for(pieces, kGridPieces);
-  const PlaceGrid<double> grid = grid_of_places(box, kGridPlaces);
+  const PlaceGrid<double> grid = grid_of_places(box, kStartPlaces);
   std::vector<Scored> found;
   for (const Eigen::Vector3d& place : grid.places) {
     const Sweep sweep{place, axis, 0};
