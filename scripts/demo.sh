@@ -48,5 +48,5 @@ summary=$(grep -m 1 -E '[0-9]+/[0-9]+ scans ok' "$evaluation") || fail "$evaluat
 echo
 echo "Made:  one cloud of ${BASH_REMATCH[2]} scans: $out/registered.ply"
 echo "Truth: $summary"
-echo "Look:  $out/registered.ply in CloudCompare, $out/report.json; each scan's error is in $evaluation"
+echo "Look:  $out/report.html in a browser, $out/registered.ply in CloudCompare; each scan's error is in $evaluation"
 ((BASH_REMATCH[1] == BASH_REMATCH[2])) || fail "not every scan is where the truth says"

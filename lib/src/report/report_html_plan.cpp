@@ -113,7 +113,9 @@ std::string plan_section(const Json& report, const Scene& scene) {
     const Json& scans = report.at("scans");
     const auto first = std::find_if(group.scans.begin(), group.scans.end(),
                                     [&](std::size_t i) { return scans[i].at("status") == "reference"; });
-    figures += "<figure>\n" + plan_drawing(group, report) + "<figcaption>Group " + std::to_string(group.component) +
+    // In the figure: what is printed keeps both on one page.
+    figures += "<figure>\n" + (figures.empty() ? "<p class=\"legend\">\n" + legend(report) + "</p>\n" : std::string()) +
+               plan_drawing(group, report) + "<figcaption>Group " + std::to_string(group.component) +
                (group.component != 0             ? ", not registered with the others, in a frame of its own"
                 : !in_frame_of_reference(report) ? ", in the survey frame"
                 : first == group.scans.end()     ? ""
@@ -125,7 +127,7 @@ std::string plan_section(const Json& report, const Scene& scene) {
   if (figures.empty()) return "";
   return section(
       "Plan",
-      "<p class=\"legend\">\n" + legend(report) + "</p>\n" + figures +
+      figures +
           note(std::string(any_setup(report)
                                ? "A disc stands where its scan was taken from, or where that cannot be told "
                                  "at the median of its points"
