@@ -114,7 +114,7 @@ def register(scans: Union[Sequence[ScanLike], Mapping[str, ScanLike]], *, profil
              control: Union[None, str, "os.PathLike[str]", Sequence[ControlPoint]] = None,
              gnss: Union[None, str, "os.PathLike[str]"] = None, fixed: Sequence[str] = (), crs: str = "",
              level_sigma_rad: float = 0,
-             initial_poses: Optional[Sequence[Optional[np.ndarray]]] = None, coarse_voxels: int = 30000,
+             initial_poses: Optional[Sequence[Optional[np.ndarray]]] = None, coarse_voxels: int = 60000,
              fine_voxels: int = 100000, threads: int = 0, seed: int = 42,
              progress: Optional[ProgressCallback] = None) -> Registration:
     """Registers scans: no initial poses are needed.

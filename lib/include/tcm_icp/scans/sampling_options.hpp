@@ -8,7 +8,7 @@ namespace tcm_icp {
 /// How many points stand for a scan. Lengths follow from these numbers and the data.
 struct SamplingOptions {
   std::size_t max_working_points = 262'144;  ///< >= 1000; of a scan, while it streams by
-  std::size_t coarse_voxels = 30'000;   ///< >= 100; voxels of a typical scan at the resolution scans are placed with
+  std::size_t coarse_voxels = 60'000;   ///< >= 100; voxels of a typical scan at the resolution scans are placed with
   std::size_t fine_voxels = 100'000;    ///< >= coarse_voxels; and at the one they are adjusted with
   double max_surface_variation = 0.06;  ///< 0..1/3; rougher places (leaves, wires) do not count as surfaces
   void validate() const;                ///< throws InvalidOptions
