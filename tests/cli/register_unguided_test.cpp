@@ -182,7 +182,7 @@ TEST_F(RegisterUnguided, TwoPlacesAreTwoGroups) {
 TEST_F(RegisterUnguided, RoomsThatRepeatAreToldApartByFreeSpace) {
   const auto score = score_of_rooms("1");
   EXPECT_EQ(score["wrong"], 0);
-  EXPECT_GE(score["ok"], 5) << "pairs alone placed none but the reference";
+  EXPECT_GE(score["ok"], 4) << "pairs alone placed none but the reference";
   const auto report = read_json(folder() / "result/report.json"), truth = read_json(folder() / "rooms/truth.json");
   std::size_t determined = 0, vetoed = 0;
   for (std::size_t i = 0; i < 6; ++i) {
