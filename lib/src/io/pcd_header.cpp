@@ -74,7 +74,7 @@ class Parser {
       for_each_field([this](PcdField& f, std::string_view word) { f.size = count_of(word); });
       has_sizes_ = true;
     } else if (key == "TYPE") {
-      for_each_field([this](PcdField& f, std::string_view word) { f.kind = word.size() == 1 ? word[0] : '?'; });
+      for_each_field([](PcdField& f, std::string_view word) { f.kind = word.size() == 1 ? word[0] : '?'; });
       has_kinds_ = true;
     } else if (key == "COUNT") {
       for_each_field([this](PcdField& f, std::string_view word) { f.count = count_of(word); });
