@@ -8,6 +8,10 @@
 namespace tcm_icp::test {
 namespace {
 
+// With kSmall, ICP ends close to the tolerance, on either side of it.
+const Words kEnoughForIcp{"--sampling.working-points", "40000", "--sampling.coarse-voxels", "10000",
+                          "--sampling.fine-voxels",    "30000"};
+
 class RegisterConventional : public CliTest {
  protected:
   // The slow ones need what the executable may have been built without.
@@ -45,11 +49,11 @@ TEST_F(RegisterConventional, IcpFromRoughPosesFindsTheTown) {
   ASSERT_EQ(score_town(as_they_lie, 2).count(PoseVerdict::kWrong), 5U) << "the start must fail";
   const RunResult result =
       run(Words{"register", "--out", "result", "--method", "icp", "--init", town_file("initial_poses.json").string()} +
-          kSmall + town_scans());
+          kEnoughForIcp + town_scans());
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const PoseFile file = read_pose_file(folder() / "result/poses.json");
   const auto right = score_town(file).count(PoseVerdict::kOk);
-  EXPECT_GE(right, 4U) << "from 5 degrees and half a metre ICP gets most scans";
+  EXPECT_GE(right, 5U) << "from 5 degrees and half a metre ICP gets most scans";
   EXPECT_TRUE(std::filesystem::exists(folder() / "result/registered.ply"));
   EXPECT_TRUE(std::filesystem::exists(folder() / "result/transforms/000.ply.txt"));
   EXPECT_EQ(report()["method"], "icp");

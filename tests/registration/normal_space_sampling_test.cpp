@@ -3,14 +3,23 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <iterator>
 #include <set>
+#include <vector>
 
 #include "support/synthetic_scene.hpp"
+#include "tcm_icp/core/place_sampling.hpp"
 
 namespace tcm_icp {
 namespace {
 
 using Eigen::Vector3d;
+
+std::vector<std::uint64_t> priorities_of(const Cloud& cloud, std::uint64_t seed) {
+  Rng rng = make_stream(seed, "normal_space_sampling_test");
+  return place_priorities(cloud.points, 0.1, rng);
+}
 
 constexpr std::size_t kFloor = 1900, kWalls = 100, kNone = 500;
 
@@ -31,8 +40,7 @@ Cloud floor_and_walls() {
 }
 
 TEST(NormalSpaceSample, AFloorOf95PercentGetsItsRootsShare) {
-  Rng rng = make_stream(1, "normal_space_sampling_test");
-  const auto sample = normal_space_sample(floor_and_walls(), 200, rng);
+  const auto sample = normal_space_sample(floor_and_walls(), 200, priorities_of(floor_and_walls(), 1));
   EXPECT_EQ(sample.size(), 200u);
   const auto on_floor =
       static_cast<double>(std::count_if(sample.begin(), sample.end(), [](std::size_t i) { return i < kFloor; }));
@@ -44,7 +52,7 @@ TEST(NormalSpaceSample, GivesTheNumberAskedForInOrderWithoutRepeats) {
   Rng rng = make_stream(2, "normal_space_sampling_test");
   const Cloud cloud = testing::synthetic_scene({.num_scans = 1, .points_per_scan = 2000}, rng).scans[0];
   for (const std::size_t count : {0u, 1u, 47u, 500u, 1999u}) {
-    const auto sample = normal_space_sample(cloud, count, rng);
+    const auto sample = normal_space_sample(cloud, count, priorities_of(cloud, 2));
     EXPECT_EQ(sample.size(), count);
     EXPECT_TRUE(std::is_sorted(sample.begin(), sample.end()));
     EXPECT_EQ(std::set<std::size_t>(sample.begin(), sample.end()).size(), sample.size());
@@ -52,9 +60,8 @@ TEST(NormalSpaceSample, GivesTheNumberAskedForInOrderWithoutRepeats) {
 }
 
 TEST(NormalSpaceSample, NeverDrawsAPointWithoutANormal) {
-  Rng rng = make_stream(3, "normal_space_sampling_test");
   for (const std::size_t count : {10u, 1000u, 100000u}) {
-    const auto sample = normal_space_sample(floor_and_walls(), count, rng);
+    const auto sample = normal_space_sample(floor_and_walls(), count, priorities_of(floor_and_walls(), 3));
     ASSERT_FALSE(sample.empty());
     EXPECT_LT(sample.back(), kFloor + kWalls);
     if (count > kFloor + kWalls) {
@@ -65,17 +72,33 @@ TEST(NormalSpaceSample, NeverDrawsAPointWithoutANormal) {
 
 TEST(NormalSpaceSample, SeedDecidesTheDraw) {
   const auto draw = [](std::uint64_t seed) {
-    Rng rng = make_stream(seed, "normal_space_sampling_test");
-    return normal_space_sample(floor_and_walls(), 100, rng);
+    return normal_space_sample(floor_and_walls(), 100, priorities_of(floor_and_walls(), seed));
   };
   EXPECT_EQ(draw(4), draw(4));
   EXPECT_NE(draw(4), draw(5));
 }
 
+// What a rounding does: a point of one direction counts to another, or is none.
+TEST(NormalSpaceSample, APointMoreOrLessChangesFewDraws) {
+  const Cloud cloud = floor_and_walls();
+  Cloud fewer = cloud;
+  fewer.points.erase(fewer.points.begin() + 7);
+  fewer.normals.erase(fewer.normals.begin() + 7);
+  const auto places = [](const Cloud& c) {
+    std::set<double> out;
+    for (const std::size_t i : normal_space_sample(c, 200, priorities_of(c, 4))) out.insert(c.points[i].x());
+    return out;
+  };
+  const std::set<double> before = places(cloud), after = places(fewer);
+  std::vector<double> kept;
+  std::set_intersection(before.begin(), before.end(), after.begin(), after.end(), std::back_inserter(kept));
+  EXPECT_GE(kept.size(), 198u);
+}
+
 TEST(NormalSpaceSample, NothingGivesNothing) {
-  Rng rng = make_stream(6, "normal_space_sampling_test");
-  EXPECT_TRUE(normal_space_sample({}, 10, rng).empty());
-  EXPECT_TRUE(normal_space_sample({{{1, 2, 3}}, {}}, 10, rng).empty()) << "a cloud without normals";
+  EXPECT_TRUE(normal_space_sample({}, 10, {}).empty());
+  const std::vector<std::uint64_t> one{7};
+  EXPECT_TRUE(normal_space_sample({{{1, 2, 3}}, {}}, 10, one).empty()) << "a cloud without normals";
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include "core/pick.hpp"
 #include "feature_hypotheses.hpp"
 #include "tcm_icp/core/error.hpp"
+#include "tcm_icp/core/place_sampling.hpp"
 #include "tcm_icp/registration/normal_space_sampling.hpp"
 
 namespace tcm_icp {
@@ -40,8 +41,10 @@ DescribedScan describe_scan(const ScanPyramid& pyramid, const FeatureAlignmentOp
     }
     out.levels.push_back(find_features(pyramid.level(l), options.features));
   }
-  const Cloud& cloud = pyramid.level(0).cloud;
-  out.check_sample = pick(cloud, normal_space_sample(cloud, static_cast<std::size_t>(options.check_points), rng));
+  const auto& [voxel_size_m, cloud, index] = pyramid.level(0);
+  const auto priorities = place_priorities(cloud.points, voxel_size_m, rng);
+  const auto count = static_cast<std::size_t>(options.check_points);
+  out.check_sample = pick(cloud, normal_space_sample(cloud, count, priorities));
   return out;
 }
 

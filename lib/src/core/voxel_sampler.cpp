@@ -20,6 +20,8 @@ constexpr double kFirstVoxelShare = 1.0 / 4096;
 // Of a voxel that had to grow: means nearer than this are of one place.
 constexpr double kJoinedShare = 0.5;
 
+constexpr double kVoxelStepsPerDecade = 31;
+
 struct Voxel {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   double count = 0;
@@ -37,6 +39,11 @@ std::int64_t floor_to_int(double value) {
 VoxelKey voxel_key(const Eigen::Vector3d& point, double voxel_size_m) {
   return {floor_to_int(point.x() / voxel_size_m), floor_to_int(point.y() / voxel_size_m),
           floor_to_int(point.z() / voxel_size_m)};
+}
+
+double rounded_voxel_size(double voxel_size_m) {
+  if (!(voxel_size_m > 0)) return voxel_size_m;
+  return std::pow(10.0, std::round(kVoxelStepsPerDecade * std::log10(voxel_size_m)) / kVoxelStepsPerDecade);
 }
 
 std::size_t VoxelKeyHash::operator()(const VoxelKey& key) const {

@@ -34,15 +34,15 @@ double typical_size(const std::vector<std::size_t>& sizes) {
 
 }  // namespace
 
-KMeansRule learn_kmeans_rule(const Points& points, std::size_t num_voxels, const OutlierOptions& options, Rng& rng,
-                             int num_threads, OutlierSummary& summary) {
+KMeansRule learn_kmeans_rule(const Points& points, std::size_t num_voxels, std::span<const std::size_t> order,
+                             const OutlierOptions& options, int num_threads, OutlierSummary& summary) {
   const bool derive_k = options.kmeans_clusters == 0;
   const double tiles = std::ceil(static_cast<double>(num_voxels) / kVoxelsPerCluster);
   const auto k = derive_k ? static_cast<std::size_t>(tiles) : static_cast<std::size_t>(options.kmeans_clusters);
-  summary.radius_m = options.kmeans_radius_m > 0 ? options.kmeans_radius_m : seeding_radius(points, k, rng);
+  summary.radius_m = options.kmeans_radius_m > 0 ? options.kmeans_radius_m : seeding_radius(points, k, order);
 
   const NeighborIndex index(points);
-  const KMeansSeeds seeds = seed_kmeans(points, index, summary.radius_m, derive_k ? points.size() : k, rng);
+  const KMeansSeeds seeds = seed_kmeans(points, index, summary.radius_m, derive_k ? points.size() : k, order);
   const KMeansResult clusters = kmeans(points, seeds.centroids, options.kmeans_max_iterations, num_threads);
 
   KMeansRule rule;

@@ -4,41 +4,15 @@
 #include <cmath>
 #include <numeric>
 #include <string>
+#include <vector>
 
 #include "tcm_icp/core/error.hpp"
-#include "tcm_icp/core/even_sample.hpp"
 
 namespace tcm_icp {
 namespace {
 
 constexpr std::size_t kRadiusSamples = 4096;
 constexpr double kCoveredShare = 0.5;
-
-// Indices that are still there; drawing and taking away cost O(1).
-class RemainingPoints {
- public:
-  explicit RemainingPoints(std::size_t count) : indices_(count), place_(count) {
-    std::iota(indices_.begin(), indices_.end(), 0u);
-    std::iota(place_.begin(), place_.end(), 0u);
-  }
-  bool empty() const { return indices_.empty(); }
-  std::size_t size() const { return indices_.size(); }
-  std::uint32_t draw(Rng& rng) const { return indices_[uniform_index(rng, indices_.size())]; }
-  void take(std::uint32_t index) {
-    const std::uint32_t place = place_[index];
-    if (place == kTaken) return;
-    const std::uint32_t last = indices_.back();
-    indices_[place] = last;
-    place_[last] = place;
-    indices_.pop_back();
-    place_[index] = kTaken;
-  }
-
- private:
-  static constexpr std::uint32_t kTaken = std::numeric_limits<std::uint32_t>::max();
-  std::vector<std::uint32_t> indices_;
-  std::vector<std::uint32_t> place_;
-};
 
 // Spread of the sample: an upper end for the radius, where one sphere holds everything.
 double largest_distance_from_mean(const Points& points) {
@@ -53,26 +27,33 @@ double largest_distance_from_mean(const Points& points) {
 }  // namespace
 
 KMeansSeeds seed_kmeans(const Points& points, const NeighborIndex& index, double radius_m, std::size_t max_centroids,
-                        Rng& rng) {
+                        std::span<const std::size_t> order) {
   if (!(radius_m > 0))
     throw InvalidOptions("the seeding radius is " + std::to_string(radius_m) + "; it must be positive");
   if (max_centroids == 0) throw InvalidOptions("the number of clusters is 0; it must be at least 1");
   KMeansSeeds seeds;
-  RemainingPoints remaining(points.size());
+  std::vector<bool> is_taken(points.size(), false);
   std::vector<Neighbor> sphere;
-  while (!remaining.empty() && seeds.centroids.size() < max_centroids) {
-    const std::uint32_t seed = remaining.draw(rng);
+  const auto take = [&](std::size_t i) {
+    if (!is_taken[i]) ++seeds.num_covered;
+    is_taken[i] = true;
+  };
+  for (const std::size_t seed : order) {
+    if (is_taken[seed]) continue;
+    if (seeds.centroids.size() == max_centroids) break;
     seeds.centroids.push_back(points[seed]);
     index.within(points[seed], radius_m, sphere);
-    for (const auto& n : sphere) remaining.take(n.index);
-    remaining.take(seed);
+    for (const auto& n : sphere) take(n.index);
+    take(seed);
   }
-  seeds.num_covered = points.size() - remaining.size();
   return seeds;
 }
 
-double seeding_radius(const Points& points, std::size_t num_clusters, Rng& rng) {
-  const Points sample = even_sample(points, kRadiusSamples);
+double seeding_radius(const Points& points, std::size_t num_clusters, std::span<const std::size_t> order) {
+  Points sample;
+  for (const std::size_t i : order.first(std::min(order.size(), kRadiusSamples))) sample.push_back(points[i]);
+  std::vector<std::size_t> drawn(sample.size());
+  std::iota(drawn.begin(), drawn.end(), std::size_t{0});
   const double spread = sample.empty() ? 0 : largest_distance_from_mean(sample);
   if (!(spread > 0)) throw InvalidInput("a cloud whose points are all equal has no length to derive a radius from");
   const NeighborIndex index(sample);
@@ -83,7 +64,7 @@ double seeding_radius(const Points& points, std::size_t num_clusters, Rng& rng) 
   // From above: far fewer spheres to draw than from below. Twice the spread reaches from any point to any other.
   double radius = 2 * spread;
   for (double smaller = radius; smaller > 0; smaller *= std::exp2(-0.25)) {
-    if (seed_kmeans(sample, index, smaller, share_of(num_clusters), rng).num_covered < wanted) break;
+    if (seed_kmeans(sample, index, smaller, share_of(num_clusters), drawn).num_covered < wanted) break;
     radius = smaller;
   }
   return radius;

@@ -1,10 +1,10 @@
 #pragma once
 // The two detectors that judge each point by its neighbours, and the clusters that judge by distance.
 
+#include <span>
 #include <vector>
 
 #include "tcm_icp/core/cloud.hpp"
-#include "tcm_icp/core/random.hpp"
 #include "tcm_icp/outliers/outlier_removal.hpp"
 
 namespace tcm_icp::detail {
@@ -14,10 +14,10 @@ struct KMeansRule {
   double threshold_m = 0;
 };
 
-/// `points` of capped density lie in `num_voxels` voxels. Fills the summary's clusters, radius, threshold and
-/// iterations.
-KMeansRule learn_kmeans_rule(const Points& points, std::size_t num_voxels, const OutlierOptions& options, Rng& rng,
-                             int num_threads, OutlierSummary& summary);
+/// `points` of capped density lie in `num_voxels` voxels; centroids are drawn in `order`. Fills the summary's clusters,
+/// radius, threshold and iterations.
+KMeansRule learn_kmeans_rule(const Points& points, std::size_t num_voxels, std::span<const std::size_t> order,
+                             const OutlierOptions& options, int num_threads, OutlierSummary& summary);
 
 /// Indices whose root mean square distance to their `num_neighbors` nearest (the point itself among them, as CGAL
 /// counts) is `factor` average spacings or more, ascending. Writes the threshold [m]. Needs >= 3 points that are not

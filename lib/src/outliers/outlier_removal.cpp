@@ -12,6 +12,7 @@
 #include "outliers/outlier_detectors.hpp"
 #include "tcm_icp/core/error.hpp"
 #include "tcm_icp/core/neighbor_index.hpp"
+#include "tcm_icp/core/place_sampling.hpp"
 #include "tcm_icp/core/voxel_sampler.hpp"
 
 namespace tcm_icp {
@@ -168,7 +169,9 @@ OutlierRule learn_outlier_rule(const Points& working_cloud, double voxel_size_m,
   const ThinnedCloud thinned = thin(working_cloud, voxel_size_m);
   auto impl = std::make_shared<OutlierRule::Impl>();
   if (options.method == OutlierMethod::kKMeans) {
-    const auto rule = detail::learn_kmeans_rule(thinned.points, thinned.num_voxels, options, rng, num_threads, summary);
+    const auto order = draw_order(place_priorities(thinned.points, voxel_size_m, rng));
+    const auto rule =
+        detail::learn_kmeans_rule(thinned.points, thinned.num_voxels, order, options, num_threads, summary);
     impl->centroid_points = rule.centroids;
     impl->centroids.emplace(rule.centroids);
     impl->threshold_m = rule.threshold_m;

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
+
+#include "tcm_icp/core/place_sampling.hpp"
 
 namespace tcm_icp {
 namespace {
@@ -23,7 +26,8 @@ std::size_t direction_bin(const Eigen::Vector3d& n) {
 
 }  // namespace
 
-std::vector<std::size_t> normal_space_sample(const Cloud& cloud, std::size_t count, Rng& rng) {
+std::vector<std::size_t> normal_space_sample(const Cloud& cloud, std::size_t count,
+                                             std::span<const std::uint64_t> priorities) {
   std::array<std::vector<std::size_t>, kNumBins> bins;
   std::size_t num_candidates = 0;
   for (std::size_t i = 0; i < cloud.normals.size(); ++i) {
@@ -47,8 +51,8 @@ std::vector<std::size_t> normal_space_sample(const Cloud& cloud, std::size_t cou
       const double root = std::sqrt(static_cast<double>(bins[b].size()));
       if (root == 0) continue;
       const auto quota = static_cast<std::size_t>(std::lround(left * root / total));
-      const auto chosen = sample_indices(rng, bins[b].size(), quota);
-      for (const std::size_t c : chosen) out.push_back(bins[b][c]);
+      const auto chosen = least_priorities(std::move(bins[b]), priorities, quota);
+      out.insert(out.end(), chosen.begin(), chosen.end());
       left -= static_cast<double>(chosen.size());
       total -= root;
     }

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "core/pick.hpp"
 #include "tcm_icp/core/parallel.hpp"
+#include "tcm_icp/core/place_sampling.hpp"
 #include "tcm_icp/core/random.hpp"
 #include "tcm_icp/core/statistics.hpp"
 #include "tcm_icp/core/voxel_sampler.hpp"
@@ -17,28 +19,29 @@ namespace {
 constexpr double kCoarseByNoise = 8, kFineByNoise = 4;
 constexpr double kFineByCoverage = 0.5;
 
-Cloud draw(const Cloud& cloud, int count, std::uint64_t seed, std::string_view stage, const std::string& key) {
+// `cloud` is sampled with `voxel_size_m`.
+Cloud draw(const Cloud& cloud, double voxel_size_m, int count, std::uint64_t seed, std::string_view stage,
+           const std::string& key) {
   Rng rng = make_stream(seed, stage, key);
-  return pick(cloud, normal_space_sample(cloud, static_cast<std::size_t>(count), rng));
+  const auto priorities = place_priorities(cloud.points, voxel_size_m, rng);
+  return pick(cloud, normal_space_sample(cloud, static_cast<std::size_t>(count), priorities));
 }
 
 // Splits one draw so that no held-out point is in the fit.
-void draw_fit_and_held_out(const Cloud& cloud, const SampleSizes& options, std::uint64_t seed, const std::string& key,
-                           Cloud& fit, Cloud& held_out) {
+void draw_fit_and_held_out(const PyramidLevel& level, const SampleSizes& options, std::uint64_t seed,
+                           const std::string& key, Cloud& fit, Cloud& held_out) {
   Rng rng = make_stream(seed, "fit and held-out points", key);
   const auto wanted = static_cast<std::size_t>(options.fine_points + options.held_out_points);
-  const auto drawn = normal_space_sample(cloud, wanted, rng);
+  const Cloud& cloud = level.cloud;
+  const auto drawn = normal_space_sample(cloud, wanted, place_priorities(cloud.points, level.voxel_size_m, rng));
   // In the proportion asked for, also where the cloud has fewer points than that.
   const std::size_t num_held_out = drawn.size() * static_cast<std::size_t>(options.held_out_points) / wanted;
-  const auto positions = sample_indices(rng, drawn.size(), num_held_out);
-  std::vector<std::size_t> in_fit, out_of_fit;
-  for (std::size_t i = 0, next = 0; i < drawn.size(); ++i) {
-    const bool chosen = next < positions.size() && positions[next] == i;
-    (chosen ? out_of_fit : in_fit).push_back(drawn[i]);
-    next += chosen ? 1 : 0;
-  }
+  // Other numbers than those that decided what is drawn.
+  const auto chosen = least_priorities(drawn, place_priorities(cloud.points, level.voxel_size_m, rng), num_held_out);
+  std::vector<std::size_t> in_fit;
+  std::set_difference(drawn.begin(), drawn.end(), chosen.begin(), chosen.end(), std::back_inserter(in_fit));
   fit = pick(cloud, in_fit);
-  held_out = pick(cloud, out_of_fit);
+  held_out = pick(cloud, chosen);
 }
 
 }  // namespace
@@ -74,7 +77,7 @@ Resolutions choose_resolutions(const std::vector<SampledScan>& scans, const Samp
   const double covered_m = median(coverage), noise_m = median(noise);
   const double coarse_m = std::max({median(coarse), covered_m, kCoarseByNoise * noise_m});
   const double fine_m = std::max({median(fine), kFineByCoverage * covered_m, kFineByNoise * noise_m});
-  return {coarse_m, std::min(coarse_m, fine_m)};
+  return {rounded_voxel_size(coarse_m), rounded_voxel_size(std::min(coarse_m, fine_m))};
 }
 
 PreparedScan prepare_scan(const SampledScan& scan, const Resolutions& resolutions, const SampleSizes& options,
@@ -94,11 +97,11 @@ PreparedScan prepare_scan(const SampledScan& scan, const Resolutions& resolution
                    {},
                    {}};
   const std::string key = stream_key(scan.scan);
-  out.coarse_sample =
-      draw(voxel_downsample(scan.scan.cloud, resolutions.coarse_m), options.coarse_points, seed, "coarse points", key);
-  draw_fit_and_held_out(out.pyramid.level(0).cloud, options, seed, key, out.fit_sample, out.held_out_sample);
+  out.coarse_sample = draw(voxel_downsample(scan.scan.cloud, resolutions.coarse_m), resolutions.coarse_m,
+                           options.coarse_points, seed, "coarse points", key);
+  draw_fit_and_held_out(out.pyramid.level(0), options, seed, key, out.fit_sample, out.held_out_sample);
   out.moments = out.held_out_sample.points;
-  out.fine_sample = draw(out.fine.cloud, options.fine_points, seed, "fine points", key);
+  out.fine_sample = draw(out.fine.cloud, resolutions.fine_m, options.fine_points, seed, "fine points", key);
   out.key = key;
   out.ball = Ball(scan.scan.cloud.points);
   out.tcm_points = out.pyramid.level(std::min<std::size_t>(1, kNumPyramidLevels - 1)).cloud.points;

@@ -70,7 +70,7 @@ Points stream_into_sample(const ScanInput& input, Scan& scan, std::size_t max_po
 NormalEstimate normals_of_surfaces(const Scan& scan, const NeighborIndex& index, int num_threads) {
   const Points& points = scan.cloud.points;
   if (!(scan.coverage_m > 0)) return estimate_normals(points, index, {}, num_threads);
-  const Points even = voxel_downsample({points, {}}, kSupportShare * scan.coverage_m).points;
+  const Points even = voxel_downsample({points, {}}, rounded_voxel_size(kSupportShare * scan.coverage_m)).points;
   if (static_cast<double>(even.size()) > kNearlyAll * static_cast<double>(points.size())) {
     return estimate_normals(points, index, {}, num_threads);  // they are even as they are
   }

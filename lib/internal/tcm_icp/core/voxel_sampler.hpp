@@ -22,6 +22,11 @@ struct VoxelKey {
 /// floor(point / voxel_size); coordinates beyond 2^61 voxels share the outermost one.
 VoxelKey voxel_key(const Eigen::Vector3d& point, double voxel_size_m);
 
+/// The nearest of a series with 31 steps a decade (7.7 % each): voxels whose edge was measured are the same where the
+/// measurements differ by a rounding. 31, because units then lie on the series, too: 1,000 is 93 steps, a foot 16 (to
+/// 0.03 %). 0 stays 0.
+double rounded_voxel_size(double voxel_size_m);
+
 struct VoxelKeyHash {
   std::size_t operator()(const VoxelKey& key) const;
 };
