@@ -168,6 +168,9 @@ TEST(PoseIo, APoseFileIsReadStrictly) {
   const std::vector<std::pair<std::string, std::string>> cases = {
       {R"({"schema": 2, "reference": "a.ply", "scans": []})", "is not of schema 1"},
       {R"({"reference": "a.ply", "scans": []})", "has no usable 'schema'"},
+      {R"({"schema": 1e49, "reference": "a.ply", "scans": []})", "has no usable 'schema'"},
+      {R"({"schema": 4294967297, "reference": "a.ply", "scans": []})", "has no usable 'schema'"},
+      {R"({"schema": 18446744073709551615, "reference": "a.ply", "scans": []})", "has no usable 'schema'"},
       {R"({"schema": 1, "scans": []})", "has no usable 'reference'"},
       {start + "\"pose\": " + pose + rest, "scans[0]: has no usable 'status'"},
       {start + "\"status\": \"reference\", \"pose\": " + pose +

@@ -1,9 +1,11 @@
 #include "tcm_icp/io/pose_io.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <string_view>
+#include <utility>
 
 #include "number_text.hpp"
 #include "pose_json.hpp"
@@ -69,6 +71,17 @@ T field_of(const nlohmann::json& entry, const char* key, const std::filesystem::
   }
 }
 
+// By hand: the library casts whatever number there is, and one beyond the range of int has no defined value.
+int whole_number(const nlohmann::json& entry, const char* key, const std::filesystem::path& path,
+                 const std::string& place) {
+  const auto value = field_of<nlohmann::json>(entry, key, path, place);
+  const bool fits = value.is_number_unsigned()
+                        ? std::in_range<int>(value.get<std::uint64_t>())
+                        : value.is_number_integer() && std::in_range<int>(value.get<std::int64_t>());
+  if (fits) return value.get<int>();
+  throw InputError(path, place, std::string("has no usable '") + key + "'", "give a poses.json that tcm-icp wrote");
+}
+
 ScanPose read_scan(const nlohmann::json& entry, const std::filesystem::path& path, const std::string& place) {
   ScanPose scan;
   scan.file = field_of<std::string>(entry, "file", path, place);
@@ -86,7 +99,7 @@ ScanPose read_scan(const nlohmann::json& entry, const std::filesystem::path& pat
   }
   if (pose) scan.T_reference_scan = *pose;
   scan.pose_in_component = pose_of(entry, "pose_in_component", path, place);
-  scan.component = field_of<int>(entry, "component", path, place);
+  scan.component = whole_number(entry, "component", path, place);
   const auto verdict_name = field_of<std::string>(entry, "verdict", path, place);
   // Poses of other programs say no more than that they are there.
   const auto verdict = !verdict_name.empty()                      ? verdict_from_name(verdict_name)
@@ -114,7 +127,7 @@ void write_pose_file(const std::filesystem::path& path, const PoseFile& poses) {
 PoseFile read_pose_file(const std::filesystem::path& path) {
   const nlohmann::json document = read_json_file(path);
   const auto& scans = scans_of(document, path);
-  if (field_of<int>(document, "schema", path, "") != 1) {
+  if (whole_number(document, "schema", path, "") != 1) {
     throw InputError(path, "", "is not of schema 1", "read it with the version of tcm-icp that wrote it");
   }
   PoseFile poses;
