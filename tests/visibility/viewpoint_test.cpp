@@ -38,6 +38,17 @@ TEST(Viewpoint, IsWhereTheScannerStood) {
   }
 }
 
+// What one of the places sees lies behind what the other saw.
+TEST(Viewpoint, TwoScansMadeOneHaveNone) {
+  const testing::BoxRoom room = testing::furnished_room();
+  Cloud both = testing::scan_room(room, kScanner, kRays / 2);
+  ASSERT_TRUE(find(both)->determined());
+  const Cloud other = testing::scan_room(room, {6.8, 1.2, 1.2}, kRays / 2);
+  both.points.insert(both.points.end(), other.points.begin(), other.points.end());
+  both.normals.insert(both.normals.end(), other.normals.begin(), other.normals.end());
+  EXPECT_FALSE(find(both)->determined());
+}
+
 TEST(Viewpoint, MovesWithTheScanAndGrowsWithItsUnit) {
   const Cloud cloud = testing::scan_room(testing::furnished_room(), kScanner, kRays);
   Rng rng = make_stream(1, "viewpoint_test poses");

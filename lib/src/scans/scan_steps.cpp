@@ -48,8 +48,8 @@ void transfer(Record& record, T& value) {
 
 template <typename Record, MaybeConst<Viewpoint> T>
 void transfer(Record& record, T& value) {
-  auto& [place, hidden_share, radius_m, extent_m, alternatives, evidence, line_share] = value;
-  record(place, hidden_share, radius_m, extent_m, alternatives, evidence, line_share);
+  auto& [place, hidden_share, radius_m, extent_m, alternatives, evidence, line_share, allowed] = value;
+  record(place, hidden_share, radius_m, extent_m, alternatives, evidence, line_share, allowed);
 }
 
 namespace {

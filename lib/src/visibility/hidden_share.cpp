@@ -66,9 +66,8 @@ HiddenShare::HiddenShare(const UnitCloud& cloud, double bins_per_point)
   for (const std::uint32_t i : index_) x_.push_back(cloud.x[i]), y_.push_back(cloud.y[i]), z_.push_back(cloud.z[i]);
 }
 
-double HiddenShare::operator()(const Eigen::Vector3f& place, double at_most) {
+void HiddenShare::look_from(const Eigen::Vector3f& place) {
   const std::size_t n = index_.size();
-  if (n == 0) return 0;
   const float px = place.x(), py = place.y(), pz = place.z();
   const float *x = x_.data(), *y = y_.data(), *z = z_.data();
   std::int32_t* bin = bin_.data();
@@ -86,18 +85,44 @@ double HiddenShare::operator()(const Eigen::Vector3f& place, double at_most) {
     std::uint64_t& nearest = nearest_[static_cast<std::size_t>(bin[i])];
     nearest = std::min(nearest, own);
   }
+}
+
+bool HiddenShare::hides(std::size_t bin, std::size_t i) const {
+  const std::uint64_t nearest = nearest_[bin];
+  const float gap = kGapOfScan + kGapOfRange * range_[i];
+  // Of an empty bin it is not a number, which is no nearer than anything.
+  const auto nearest_range = std::bit_cast<float>(static_cast<std::uint32_t>(nearest >> 32U));
+  if (!(range_[i] - nearest_range > gap)) return false;
+  return apart(surfaces_[index_[i]], surfaces_[static_cast<std::uint32_t>(nearest)], gap);
+}
+
+double HiddenShare::operator()(const Eigen::Vector3f& place, double at_most) {
+  const std::size_t n = index_.size();
+  if (n == 0) return 0;
+  look_from(place);
   const auto share = [&](std::size_t count) { return static_cast<double>(count) / static_cast<double>(n); };
   std::size_t hidden = 0;
   for (std::size_t i = 0; i < n; ++i) {
-    const std::uint64_t nearest = nearest_[static_cast<std::size_t>(bin[i])];
-    const float gap = kGapOfScan + kGapOfRange * range[i];
-    const auto nearest_range = std::bit_cast<float>(static_cast<std::uint32_t>(nearest >> 32U));
-    if (!(range[i] - nearest_range > gap)) continue;
-    if (apart(surfaces_[index_[i]], surfaces_[static_cast<std::uint32_t>(nearest)], gap) && share(++hidden) > at_most) {
-      break;
-    }
+    if (hides(static_cast<std::size_t>(bin_[i]), i) && share(++hidden) > at_most) break;
   }
   return share(hidden);
+}
+
+double HiddenShare::inner(const Eigen::Vector3f& place) {
+  const std::size_t n = index_.size();
+  if (n == 0) return 0;
+  look_from(place);
+  std::size_t hidden = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    if (!hides(static_cast<std::size_t>(bin_[i]), i)) continue;
+    const int row = bin_[i] / bins_.edge(), column = bin_[i] % bins_.edge();
+    const auto hides_at = [&](int r, int c) { return hides(bins_.wrapped(r, c), i); };
+    if ((hides_at(row, column - 1) && hides_at(row, column + 1)) ||
+        (hides_at(row - 1, column) && hides_at(row + 1, column))) {
+      ++hidden;
+    }
+  }
+  return static_cast<double>(hidden) / static_cast<double>(n);
 }
 
 }  // namespace tcm_icp

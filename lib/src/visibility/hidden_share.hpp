@@ -34,6 +34,11 @@ class HiddenShare {
   /// O(N), about 5 ns a point.
   double operator()(const Eigen::Vector3f& place, double at_most = 1);
 
+  /// Share of the points amid what others hide: in the bins on either side, left and right or above and below, too. From
+  /// the place of a scanner the bins that edges cross hide points, which says how fine the bins are and not how far off
+  /// the place is; these are hardly any there. O(N).
+  double inner(const Eigen::Vector3f& place);
+
  private:
   struct Surface {
     float x, y, z, nx, ny, nz;
@@ -44,6 +49,10 @@ class HiddenShare {
     const float dx = p.x - q.x, dy = p.y - q.y, dz = p.z - q.z;
     return std::abs(dx * p.nx + dy * p.ny + dz * p.nz) > gap && std::abs(dx * q.nx + dy * q.ny + dz * q.nz) > gap;
   }
+
+  void look_from(const Eigen::Vector3f& place);  // fills bin_, range_ and nearest_
+  // Whether what is nearest in a bin hides the i-th point, in the order of the bins.
+  bool hides(std::size_t bin, std::size_t i) const;
 
   DirectionBins bins_;
   std::vector<Surface> surfaces_;  // in the cloud's order
