@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <set>
 
@@ -60,6 +61,36 @@ TEST_F(CutsTest, TheOtherPlaceOfAScanLowersItsLead) {
   const Isometry3d& T = *component.T_reference_scan[2];
   EXPECT_TRUE(testing::is_pose_near(T * Eigen::Translation3d(0, 7, 0), *cut.other_motion * T, kRounding, kRounding));
   EXPECT_NEAR(rms_displacement(T.inverse() * *cut.other_motion * T, world_.points()), 7, kRounding);
+}
+
+// Halves of a building that look alike: every pair across finds the same wrong place, and each shows a little that speaks
+// against it. Searches that agree are no coincidence there.
+TEST_F(CutsTest, ManyPairsThatAreUnlikelyAreATwin) {
+  for (const double log_odds : {-2.0, 2.0}) {
+    HypothesisWorld world(8, rng_);
+    for (std::size_t a = 0; a < 4; ++a) {
+      for (std::size_t b = 4; b < 8; ++b) world.add(a, b, {world.hypothesis(a, b, log_odds)});
+    }
+    const Cut cut = measure_cut(world.graph(), world.truth({0, 1, 2, 3, 4, 5, 6, 7}), {4, 5, 6, 7});
+    const double by_chance = 16 * std::log(1 + std::exp(log_odds + options_.log_poses)) - options_.log_poses;
+    const double by_twin =
+        16 * std::log(std::exp(options_.log_missed) + std::exp(log_odds + options_.log_poses - options_.log_implied)) +
+        options_.log_twins;
+    EXPECT_GT(by_chance, 10) << "as a coincidence it is clear either way";
+    EXPECT_NEAR(cut.support, by_twin, kRounding);
+    EXPECT_EQ(cut.support > 0, log_odds > 0);
+  }
+}
+
+// One link is worth what it says: nothing has to agree with it.
+TEST_F(CutsTest, ASingleLinkIsNoTwin) {
+  for (const double log_odds : {0.5, 3.0, 7.0}) {
+    HypothesisWorld world(2, rng_);
+    world.add(0, 1, {world.hypothesis(0, 1, log_odds)});
+    const Component component = world.truth({0, 1});
+    EXPECT_EQ(measure_cut(world.graph(), component, {1}).support,
+              world.graph().support_of(1, *component.T_reference_scan[1], component));
+  }
 }
 
 // Less likely than that all hypotheses across are wrong.

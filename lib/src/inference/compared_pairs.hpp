@@ -31,6 +31,9 @@ struct ComparedPair {
 /// What a pair says of its scans' poses.
 struct Agreement {
   double support = 0;
+  /// The same against poses at a twin, a place that looks like the right one to all pairs: that a hypothesis is found
+  /// there is no coincidence, implied or not, and only what it shows counts.
+  double against_twins = 0;
   const PoseHypothesis* hypothesis = nullptr;  ///< that says most; none: none agrees
   double pull = 0;                             ///< [1/m^2] with which it draws the poses to its own
 };

@@ -37,9 +37,9 @@ bool PairsAcross::is_elsewhere(const Hypothesis& h) const {
                    : !graph_.same_pose(p.pair->a, T_a, T_b * T_a_b.inverse());
 }
 
-double PairsAcross::support_of(const Pair& p, const Eigen::Isometry3d& motion) const {
+Agreement PairsAcross::agreement_of(const Pair& p, const Eigen::Isometry3d& motion) const {
   const Eigen::Isometry3d &T_a = pose(p.pair->a), &T_b = pose(p.pair->b);
-  return p.moves_b ? graph_.support(*p.pair, T_a, motion * T_b) : graph_.support(*p.pair, motion * T_a, T_b);
+  return p.moves_b ? graph_.agreement(*p.pair, T_a, motion * T_b) : graph_.agreement(*p.pair, motion * T_a, T_b);
 }
 
 bool PairsAcross::may_agree(const Hypothesis& h, const Eigen::Isometry3d& motion, const Eigen::Isometry3d& back) const {
@@ -57,15 +57,17 @@ double PairsAcross::support(const Eigen::Isometry3d& motion) const {
 }
 
 double PairsAcross::support(const Eigen::Isometry3d& motion, const std::vector<std::size_t>& may_agree) const {
-  double sum = -graph_.options().log_poses;
+  double sum = -graph_.options().log_poses, against_twins = graph_.options().log_twins;
   std::size_t next = 0;  // the first pair that was not asked yet
   for (const std::size_t k : may_agree) {
     const std::size_t pair = hypotheses_[k].pair;
     if (pair < next) continue;
     next = pair + 1;
-    sum += support_of(pairs_[pair], motion);
+    const Agreement says = agreement_of(pairs_[pair], motion);
+    sum += says.support;
+    against_twins += says.against_twins;
   }
-  return sum;
+  return std::min(sum, against_twins);
 }
 
 double PairsAcross::most_support(const std::vector<std::size_t>& may_agree) const {

@@ -17,7 +17,8 @@ class PairsAcross {
   /// @param moved  members of the component
   PairsAcross(const PairGraph& graph, const Component& component, const std::vector<std::size_t>& moved);
 
-  /// What the pairs say for the part at motion * T, T its poses in the component, less log_poses.
+  /// What the pairs say for the part at motion * T, T its poses in the component: against places that agree by chance, less
+  /// log_poses, or against a twin, which is rarer by log_twins, whichever is less.
   /// Cost: the hypotheses of the pairs.
   double support(const Eigen::Isometry3d& motion) const;
 
@@ -59,7 +60,7 @@ class PairsAcross {
   std::vector<CellPromise> promises(const MotionCells& cells, double least) const;
   // Whether the middle of b's points lies where the hypothesis has it, nearly: tells most that disagree at little cost.
   bool may_agree(const Hypothesis& h, const Eigen::Isometry3d& motion, const Eigen::Isometry3d& back) const;
-  double support_of(const Pair& p, const Eigen::Isometry3d& motion) const;
+  Agreement agreement_of(const Pair& p, const Eigen::Isometry3d& motion) const;
   // Of the pairs that these hypotheses, ascending, belong to.
   double support(const Eigen::Isometry3d& motion, const std::vector<std::size_t>& may_agree) const;
   double most_support(const std::vector<std::size_t>& may_agree) const;

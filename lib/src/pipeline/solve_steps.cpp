@@ -59,8 +59,8 @@ void transfer(Record& record, T& value) {
 
 template <typename Record, MaybeConst<InferenceOptions> T>
 void transfer(Record& record, T& value) {
-  auto& [poses, implied, missed, spread, most_log_odds, set_spread, max_starts, max_grown, max_sweeps] = value;
-  record(poses, implied, missed, spread, most_log_odds, set_spread, max_starts, max_grown, max_sweeps);
+  auto& [poses, implied, missed, twins, spread, most_log_odds, set_spread, max_starts, max_grown, max_sweeps] = value;
+  record(poses, implied, missed, twins, spread, most_log_odds, set_spread, max_starts, max_grown, max_sweeps);
 }
 
 template <typename Record, MaybeConst<RobustTcmOptions> T>
