@@ -63,8 +63,8 @@ TEST_F(CutsTest, TheOtherPlaceOfAScanLowersItsLead) {
   EXPECT_NEAR(rms_displacement(T.inverse() * *cut.other_motion * T, world_.points()), 7, kRounding);
 }
 
-// Halves of a building that look alike: every pair across finds the same wrong place, and each shows a little that speaks
-// against it. Searches that agree are no coincidence there.
+// Halves of a building that look alike: every pair across finds the same wrong place, and each shows a little that
+// speaks against it. Searches that agree are no coincidence there.
 TEST_F(CutsTest, ManyPairsThatAreUnlikelyAreATwin) {
   for (const double log_odds : {-2.0, 2.0}) {
     HypothesisWorld world(8, rng_);

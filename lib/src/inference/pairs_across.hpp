@@ -17,9 +17,9 @@ class PairsAcross {
   /// @param moved  members of the component
   PairsAcross(const PairGraph& graph, const Component& component, const std::vector<std::size_t>& moved);
 
-  /// What the pairs say for the part at motion * T, T its poses in the component: against places that agree by chance, less
-  /// log_poses, or against a twin, which is rarer by log_twins, whichever is less.
-  /// Cost: the hypotheses of the pairs.
+  /// What the pairs say for the part at motion * T, T its poses in the component: against places that agree by chance,
+  /// less log_poses, or against a twin, which is rarer by log_twins, whichever is less. Cost: the hypotheses of the
+  /// pairs.
   double support(const Eigen::Isometry3d& motion) const;
 
   struct Elsewhere {

@@ -34,9 +34,9 @@ class HiddenShare {
   /// O(N), about 5 ns a point.
   double operator()(const Eigen::Vector3f& place, double at_most = 1);
 
-  /// Share of the points amid what others hide: in the bins on either side, left and right or above and below, too. From
-  /// the place of a scanner the bins that edges cross hide points, which says how fine the bins are and not how far off
-  /// the place is; these are hardly any there. O(N).
+  /// Share of the points amid what others hide: in the bins on either side, left and right or above and below, too.
+  /// From the place of a scanner the bins that edges cross hide points, which says how fine the bins are and not how
+  /// far off the place is; these are hardly any there. O(N).
   double inner(const Eigen::Vector3f& place);
 
  private:
