@@ -4,11 +4,12 @@
   calibrate.py --out DIR [--exe TCM_ICP] [--seeds 1 2 3] [--jobs 2] [--only links|scans] [--dry-run]
 
 Makes sets of every simulated scene with several sensors (calibration/sets.py), as they are, thinned, cropped, cluttered,
-a few scans alone, with a mirrored scan and with scans of other scenes; registers each with `--confidence 0`, so that
+a few scans alone, with passers-by, a mirrored scan and scans of other scenes; registers each with `--confidence 0`, so that
 wrong places are reported, too; fits, and writes lib/src/links/link_model.inc, lib/src/decision/scan_model.inc,
 docs/results/calibration.csv and docs/images/reliability.png. Figures are of scenes left out of the fit, one at a time.
-Decisions follow from links: after a change of the link model build the program and run again with --only scans.
-What DIR has already is used again. Needs numpy and matplotlib; about four seconds of processor time a set.
+Decisions follow from links: after a change of the link model build the program and run again with --only scans, which leaves
+the link model as it is. Figures and diagram are of both in either case.
+What DIR has already is used again. Needs numpy and matplotlib; about seven seconds of processor time a set.
 """
 
 import argparse
@@ -107,7 +108,8 @@ def fit_links(options, folder, results):
         halves = [f"{{{c:.5g},\n     {braces(np.pad(w, (0, X.shape[1] - len(w))))}}}"
                   for c, w in zip(model.constants, model.weights)]
         text += f"constexpr LinkModel {name}{{\n    {halves[0]},\n    {halves[1]}}};\n"
-    (ROOT / "lib/src/links/link_model.inc").write_text(text)
+    if options.only != "scans":
+        (ROOT / "lib/src/links/link_model.inc").write_text(text)
     return tables
 
 
@@ -123,7 +125,8 @@ def fit_scans(options, folder, results):
         f"const ScanModel kScanModel{{{whole.constants[0]:.5g}, {whole.constants[1]:.5g},\n"
         f"    {braces(whole.spread(0, X.shape[1]))},\n    {braces(whole.spread(1, X.shape[1]))},\n"
         f"    {braces(np.median(X[y > 0], 0))}}};\n")
-    (ROOT / "lib/src/decision/scan_model.inc").write_text(text)
+    if options.only != "links":
+        (ROOT / "lib/src/decision/scan_model.inc").write_text(text)
     return [figures("scan", logistic.held_out(model, X, y, scene, name_of_set), y)]
 
 
@@ -153,18 +156,17 @@ def main():
     parser.add_argument("--exe", default=str(ROOT / "build/release/app/tcm-icp"))
     parser.add_argument("--seeds", type=int, nargs="+", default=[1, 2, 3])
     parser.add_argument("--jobs", type=int, default=2)
-    parser.add_argument("--only", choices=("links", "scans"))
+    parser.add_argument("--only", choices=("links", "scans"), help="the model that is written")
     parser.add_argument("--dry-run", action="store_true", help="say how many sets there are, and stop")
     options = parser.parse_args()
     count = len(options.seeds) * len(sets.SCENES) * len(sets.VARIANTS)
-    print(f"{count} sets, about {4 * count / options.jobs / 60:.0f} minutes")
+    print(f"{count} sets, about {7 * count / options.jobs / 60:.0f} minutes")
     if options.dry_run:
         return
     options.out.mkdir(parents=True, exist_ok=True)
     folder = make_sets(options)
     results = register_all(options, folder)
-    tables = fit_links(options, folder, results) if options.only != "scans" else []
-    tables += fit_scans(options, folder, results) if options.only != "links" else []
+    tables = fit_links(options, folder, results) + fit_scans(options, folder, results)
     for table, _ in tables:
         print(", ".join(f"{k} {v}" for k, v in table.items()))
     with open(ROOT / "docs/results/calibration.csv", "w", newline="") as f:

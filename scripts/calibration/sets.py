@@ -38,8 +38,9 @@ SCENES = (
                            "--speed", "1")),
     Scene("plaza", ("--scene", "plaza", "--scans", "6")),
     Scene("bays", ("--scene", "bays", "--scans", "8")),
+    Scene("bays_dense", ("--scene", "bays", "--scans", "10", "--step", "0.2", "--thinning", "0.02")),
 )
-VARIANTS = ("plain", "thin", "crop", "mirror", "stranger", "clutter", "subset")
+VARIANTS = ("plain", "thin", "crop", "mirror", "stranger", "clutter", "subset", "passers")
 
 
 def simulate(exe, scene, seed, folder):
@@ -90,10 +91,41 @@ def make_variant(plain, variant, seed, other, folder):
             scans.append((p * (_extent(scans[0][0]) / _extent(p)), scans[0][1], k + 1))
     elif variant == "clutter":
         scans = [(_cluttered(p, rng), pose, g) for p, pose, g in scans]
+    elif variant == "passers":
+        scans = [(_with_passers(p, np.array(s["pose"], float), s["scanner"], rng), pose, g)
+                 for (p, pose, g), s in zip(scans, truth["scans"])]
     elif variant == "subset":
         size = int(rng.integers(2, min(4, len(scans) - 1) + 1))
         scans = [scans[i] for i in sorted(rng.permutation(len(scans))[:size])]
     _emit(folder, scans, truth)
+
+
+def _with_passers(points, pose, scanner, rng):
+    """People and cars about the scanner, others in every scan: where a ray meets one, its point lies there."""
+    R, t = pose[:3, :3], pose[:3, 3]
+    origin = R @ np.asarray(scanner, float) + t
+    rays = points @ R.T + t - origin
+    reach = float(np.median(np.linalg.norm(rays, axis=1)))
+    least = np.ones(len(points))  # of each ray, as far as it gets
+    low = np.flatnonzero(rays[:, 2] <= np.quantile(rays[:, 2], 0.3))
+    for _ in range(int(rng.integers(3, 13))):
+        foot = rays[low[int(rng.integers(len(low)))]]
+        foot = foot * min(1, rng.uniform(0.3, 1.5) * reach / np.linalg.norm(foot[:2])) * [1, 1, 0] + [0, 0, foot[2]]
+        is_car = reach > 8 and rng.random() < 0.4
+        half = np.array([2.1, 0.9, 0.75]) if is_car else np.array([0.25, 0.25, 0.85])
+        a = rng.uniform(0, 2 * np.pi)
+        turn = np.array([[np.cos(a), np.sin(a), 0], [-np.sin(a), np.cos(a), 0], [0, 0, 1]])
+        middle = turn @ (foot + [0, 0, half[2]])
+        if (np.abs(middle[:2]) < half[:2] + 0.3).all():
+            continue  # nobody stands in the scanner
+        with np.errstate(divide="ignore", invalid="ignore"):
+            along = rays @ turn.T
+            sides = np.stack([(middle - half) / along, (middle + half) / along])
+        enters, leaves = sides.min(0).max(1), sides.max(0).min(1)
+        meets = (enters > 0) & (enters <= leaves) & (enters < least)
+        least[meets] = enters[meets]
+    noise = np.where(least < 1, rng.normal(size=len(points)) * 0.005, 0) / np.linalg.norm(rays, axis=1)
+    return (rays * (least + noise)[:, None] + origin - t) @ R
 
 
 def _cluttered(points, rng):

@@ -72,6 +72,19 @@ TEST(Normals, TheNumberOfThreadsDoesNotMatter) {
   }
 }
 
+TEST(Normals, AtPlacesBesideThePointsAreThoseOfTheNearestPoints) {
+  Rng rng = make_stream(5, "normals_test");
+  Points plane, beside;
+  for (int i = 0; i < 400; ++i) plane.emplace_back(10 * uniform01(rng), 10 * uniform01(rng), 0);
+  for (int i = 0; i < 20; ++i) beside.emplace_back(10 * uniform01(rng), 10 * uniform01(rng), 0.5);
+  const NormalEstimate at = estimate_normals_at(beside, plane, NeighborIndex(plane), {}, 1);
+  ASSERT_EQ(at.normals.size(), beside.size());
+  for (std::size_t i = 0; i < beside.size(); ++i) {
+    EXPECT_NEAR(std::abs(at.normals[i].z()), 1, 1e-9);
+    EXPECT_NEAR(at.roughness_m[i], 0, 1e-9);
+  }
+}
+
 TEST(Normals, RefuseBadOptions) {
   const NeighborIndex index(Points{});
   EXPECT_THROW(estimate_normals({}, index, {2, 48}, 1), InvalidOptions);

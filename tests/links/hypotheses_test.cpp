@@ -130,6 +130,20 @@ TEST_F(HypothesisSetTest, ScoringComparesWithTheWholeSet) {
   EXPECT_EQ(set_->reference().voxel_m, kVoxel_m);
 }
 
+// They are mostly wrong, and would make what the first search found look better or worse than it is.
+TEST_F(HypothesisSetTest, ScoringComparesWithNoLaterHypotheses) {
+  set_->add(0, 1, {aside(0, 1, 0)});
+  set_->score();
+  const SetReference before = set_->reference();
+  LinkHypothesis later = aside(2, 3, 0, 0.9);
+  later.measurements.evidence.median_residual_m /= 5;
+  later.is_later = true;
+  set_->add(2, 3, {later});
+  set_->score();
+  EXPECT_EQ(set_->reference().typical_residual_m, before.typical_residual_m);
+  EXPECT_EQ(set_->reference().best_inlier_share, before.best_inlier_share);
+}
+
 // A loop tells which of its hypotheses are right, however poor all of them look.
 TEST_F(HypothesisSetTest, WhatTheSetsPosesConfirmMakesItsOtherHypothesesLikelier) {
   for (const auto& [a, b] : Pairs{{0, 1}, {0, 2}, {1, 2}, {0, 3}}) {

@@ -94,6 +94,43 @@ TEST(SampleScan, NormalsAreThoseOfSurfacesNotOfLinesOnThem) {
   EXPECT_GT(static_cast<double>(right) / static_cast<double>(s.surface_normals.size()), 0.9);
 }
 
+// A room swept by sixteen lines, ranges noisier than neighbours on a line are apart: there a line covers the cone of
+// its rays, which is smooth and no wall.
+TEST(SampleScan, NormalsAreThoseOfWallsWhereLinesAreThickByNoise) {
+  const test::TempFolder folder;
+  constexpr double kNoise_m = 0.03, kDegree = EIGEN_PI / 180;
+  const Vector3d half(2.5, 4, 1.5);  // of the room, from the scanner
+  Rng rng = make_stream(8, "scan_sampling_test");
+  const Eigen::Isometry3d T = testing::random_pose(5, rng);
+  Points points, walls;
+  for (int line = 0; line < 16; ++line) {
+    for (int k = 0; k < 1800; ++k) {
+      const double elevation = (2 * line - 15) * kDegree, azimuth = 0.2 * kDegree * k;
+      const Vector3d ray(std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth),
+                         std::sin(elevation));
+      Eigen::Index axis = 0;
+      const double range = (half.array() / ray.array().abs()).minCoeff(&axis) + kNoise_m * standard_normal(rng);
+      points.push_back(T * (range * ray));
+      walls.push_back(T.linear().col(axis));
+    }
+  }
+  const SampledScan s = sample_scan(write_ply(folder.path() / "a.ply", points), {}, keep_all(), 42, 1);
+  EXPECT_GT(s.scan.noise_m, kNoise_m / 2) << "of the cone it is a tenth of a millimetre";
+  EXPECT_LT(s.scan.noise_m, 1.5 * kNoise_m);
+  EXPECT_GT(s.scan.coverage_m, 2 * kNoise_m);
+  const NeighborIndex raw(points);
+  std::size_t right = 0, along_axis = 0;
+  for (std::size_t i = 0; i < s.scan.cloud.size(); ++i) {
+    const Vector3d& n = s.scan.cloud.normals[i];
+    right +=
+        std::abs(n.dot(walls[raw.nearest(s.scan.cloud.points[i] + s.scan.origin).index])) > std::cos(0.4) ? 1u : 0u;
+    along_axis += std::abs(n.dot(T.linear().col(2))) > std::cos(0.4) ? 1u : 0u;
+  }
+  const auto count = static_cast<double>(s.scan.cloud.size());
+  EXPECT_GT(static_cast<double>(right) / count, 0.7);
+  EXPECT_LT(static_cast<double>(along_axis) / count, 0.3) << "the lines hit hardly any floor";
+}
+
 TEST(SampleScan, RoughPlacesAreNoSurfaces) {
   const test::TempFolder folder;
   Rng rng = make_stream(4, "scan_sampling_test");

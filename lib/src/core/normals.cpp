@@ -72,17 +72,17 @@ void NormalOptions::validate() const {
   }
 }
 
-NormalEstimate estimate_normals(const Points& points, const NeighborIndex& index, const NormalOptions& options,
-                                int num_threads) {
+NormalEstimate estimate_normals_at(const Points& queries, const Points& points, const NeighborIndex& index,
+                                   const NormalOptions& options, int num_threads) {
   options.validate();
-  NormalEstimate out{Points(points.size(), Eigen::Vector3d::Zero()), std::vector<double>(points.size(), 0.0),
-                     std::vector<double>(points.size(), 0.0)};
-  parallel_for(num_threads, points.size(), [&](std::size_t begin, std::size_t end) {
+  NormalEstimate out{Points(queries.size(), Eigen::Vector3d::Zero()), std::vector<double>(queries.size(), 0.0),
+                     std::vector<double>(queries.size(), 0.0)};
+  parallel_for(num_threads, queries.size(), [&](std::size_t begin, std::size_t end) {
     std::vector<Neighbor> neighbors;
     for (std::size_t i = begin; i < end; ++i) {
       Plane plane;
       for (int k = options.min_neighbors; plane.is_line; k = std::min(2 * k, options.max_neighbors)) {
-        nearest_k_and_ties(index, points[i], static_cast<std::size_t>(k), neighbors);
+        nearest_k_and_ties(index, queries[i], static_cast<std::size_t>(k), neighbors);
         if (neighbors.size() < 3) break;
         plane = fit_plane(points, neighbors);
         if (k == options.max_neighbors) break;
@@ -94,6 +94,11 @@ NormalEstimate estimate_normals(const Points& points, const NeighborIndex& index
     }
   });
   return out;
+}
+
+NormalEstimate estimate_normals(const Points& points, const NeighborIndex& index, const NormalOptions& options,
+                                int num_threads) {
+  return estimate_normals_at(points, points, index, options, num_threads);
 }
 
 double median_spacing(const Points& points, const NeighborIndex& index) {

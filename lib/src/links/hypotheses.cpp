@@ -51,12 +51,15 @@ void HypothesisSet::add(std::size_t a, std::size_t b, const std::vector<LinkHypo
 }
 
 void HypothesisSet::score() {
-  std::vector<LinkMeasurements> all;
+  // Later ones are of scans that the first search left, and mostly wrong, the more the harder the scans are.
+  std::vector<LinkMeasurements> first;
   for (const auto& [pair, hypotheses] : pairs_) {
-    for (const auto& h : hypotheses) all.push_back(h.measurements);
+    for (const auto& h : hypotheses) {
+      if (!h.is_later) first.push_back(h.measurements);
+    }
   }
   const double constant = reference_.constant, later_constant = reference_.later_constant;
-  reference_ = SetReference::of(voxel_m_, noise_m_, all);
+  reference_ = SetReference::of(voxel_m_, noise_m_, first);
   reference_.constant = constant;
   reference_.later_constant = later_constant;
   for (auto& [pair, hypotheses] : pairs_) {

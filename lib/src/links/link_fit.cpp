@@ -12,8 +12,9 @@
 namespace tcm_icp {
 namespace {
 
-// A pair is looked at by few points: its fit is taken up again when the scan is merged.
-constexpr std::size_t kFitPoints = 500, kScreenPoints = 250;
+// With 500 points to fit and to measure, another seed moved the log-odds of right pairs over a forest by 1.3 (standard
+// deviation); with 1,500 by 0.55, for 5 % more time.
+constexpr std::size_t kFitPoints = 1500, kScreenPoints = 250;
 constexpr int kMaxLpSolves = 20;  // a fit of a right pose takes ten; others go round in circles
 // Maximum correspondence distances, in coarse voxels.
 constexpr double kFirstDistance = 8, kLastDistance = 2, kDistanceShrink = 0.6;

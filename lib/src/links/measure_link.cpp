@@ -7,7 +7,7 @@
 namespace tcm_icp {
 namespace {
 
-constexpr std::size_t kPoints = 500;
+constexpr std::size_t kPoints = 1500;
 
 AlignmentEvidence one_way(const PreparedScan& target, const PreparedScan& source, const Eigen::Isometry3d& T,
                           bool with_slides) {

@@ -1,9 +1,11 @@
 #include "scans/scan_sampling.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "tcm_icp/core/coverage.hpp"
 #include "tcm_icp/core/error.hpp"
+#include "tcm_icp/core/even_sample.hpp"
 #include "tcm_icp/core/neighbor_index.hpp"
 #include "tcm_icp/core/normals.hpp"
 #include "tcm_icp/core/parallel.hpp"
@@ -67,19 +69,63 @@ Points stream_into_sample(const ScanInput& input, Scan& scan, std::size_t max_po
 // Along a ring points are so dense that a point's nearest neighbours are of one ring, spread by the noise of its
 // ranges: their plane is the scanner's, not the wall's. So planes are fitted to points as dense as surfaces are
 // covered, and a point takes the plane of the nearest of those.
-NormalEstimate normals_of_surfaces(const Scan& scan, const NeighborIndex& index, int num_threads) {
+struct EvenPoints {
+  Points points;
+  NeighborIndex index;
+
+  EvenPoints(const Points& all, double support_m)
+      : points(voxel_downsample({all, {}}, rounded_voxel_size(support_m)).points), index(points) {}
+};
+
+constexpr std::size_t kPlanesCompared = 1000;
+constexpr double kSmootherPlanes = 4;   // as much a bent surface is at half the distance; a noisy one is as smooth
+constexpr double kOtherPlane = 0.7071;  // cos 45 degrees: planes nearer to upright on one another than to parallel
+
+// Where a ring's points are nearer one another than their ranges are noisy, they cover the cone that the scanner sweeps
+// before they cover surfaces. Planes of the cone are far smoother than those of points half as dense, and other ones.
+bool are_planes_of_a_cone(const NormalEstimate& here, const NormalEstimate& next) {
+  std::vector<double> roughness_here, roughness_next, cosines;
+  for (std::size_t i = 0; i < here.normals.size(); ++i) {
+    if (here.normals[i].isZero() || next.normals[i].isZero()) continue;
+    roughness_here.push_back(here.roughness_m[i]);
+    roughness_next.push_back(next.roughness_m[i]);
+    cosines.push_back(std::abs(here.normals[i].dot(next.normals[i])));
+  }
+  return !cosines.empty() && median(roughness_next) > kSmootherPlanes * median(roughness_here) &&
+         median(cosines) < kOtherPlane;
+}
+
+// Moves the scan's coverage to where points cover surfaces.
+EvenPoints points_of_surfaces(Scan& scan) {
+  const Points& points = scan.cloud.points;
+  const Points queries = even_sample(points, kPlanesCompared);
+  const auto planes = [&](const EvenPoints& even) {
+    return estimate_normals_at(queries, even.points, even.index, {}, 1);
+  };
+  EvenPoints here(points, kSupportShare * scan.coverage_m);
+  NormalEstimate planes_here = planes(here);
+  while (true) {
+    EvenPoints next(points, 2 * kSupportShare * scan.coverage_m);
+    NormalEstimate planes_next = planes(next);
+    if (!are_planes_of_a_cone(planes_here, planes_next)) return here;
+    here = std::move(next);
+    planes_here = std::move(planes_next);
+    scan.coverage_m *= 2;
+  }
+}
+
+NormalEstimate normals_of_surfaces(Scan& scan, const NeighborIndex& index, int num_threads) {
   const Points& points = scan.cloud.points;
   if (!(scan.coverage_m > 0)) return estimate_normals(points, index, {}, num_threads);
-  const Points even = voxel_downsample({points, {}}, rounded_voxel_size(kSupportShare * scan.coverage_m)).points;
-  if (static_cast<double>(even.size()) > kNearlyAll * static_cast<double>(points.size())) {
+  const EvenPoints even = points_of_surfaces(scan);
+  if (static_cast<double>(even.points.size()) > kNearlyAll * static_cast<double>(points.size())) {
     return estimate_normals(points, index, {}, num_threads);  // they are even as they are
   }
-  const NeighborIndex even_index(even);
-  const NormalEstimate planes = estimate_normals(even, even_index, {}, num_threads);
+  const NormalEstimate planes = estimate_normals(even.points, even.index, {}, num_threads);
   NormalEstimate out{Points(points.size()), std::vector<double>(points.size()), std::vector<double>(points.size())};
   parallel_for(num_threads, points.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      const std::size_t nearest = even_index.nearest(points[i]).index;
+      const std::size_t nearest = even.index.nearest(points[i]).index;
       out.normals[i] = planes.normals[nearest];
       out.variation[i] = planes.variation[nearest];
       out.roughness_m[i] = planes.roughness_m[nearest];

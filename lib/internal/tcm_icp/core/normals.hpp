@@ -24,6 +24,10 @@ struct NormalEstimate {
 NormalEstimate estimate_normals(const Points& points, const NeighborIndex& index, const NormalOptions& options,
                                 int num_threads);
 
+/// The same of the points nearest to each of `queries`. Cost O(Q k log N).
+NormalEstimate estimate_normals_at(const Points& queries, const Points& points, const NeighborIndex& index,
+                                   const NormalOptions& options, int num_threads);
+
 /// Median distance [m] from a point to its nearest other point, over at most 2,000 points spread evenly; 0 where fewer
 /// than two points.
 double median_spacing(const Points& points, const NeighborIndex& index);
