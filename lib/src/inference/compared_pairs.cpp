@@ -70,8 +70,9 @@ Agreement PairGraph::agreement(const ComparedPair& pair, const Eigen::Isometry3d
     const double odds = std::exp(std::min(h.log_odds, options_.most_log_odds) + chance);
     const double missed = h.implied ? std::exp(options_.log_missed) : 1;
     const double says = std::log(missed + odds);
-    const double says_of_twins =
-        h.implied ? says : std::log(std::exp(options_.log_missed) + odds * std::exp(-options_.log_implied));
+    const double shows = std::exp(std::min(h.log_odds - std::max(0.0, h.taught), options_.most_log_odds) +
+                                  options_.log_poses - options_.log_implied - near);
+    const double says_of_twins = std::log(std::exp(options_.log_missed) + shows);
     best.against_twins = best.hypothesis == nullptr ? says_of_twins : std::max(best.against_twins, says_of_twins);
     if (best.hypothesis != nullptr && says <= best.support) continue;
     best.support = says;

@@ -17,9 +17,10 @@ constexpr double kLeastGain = 1e-9;  // of support: less is rounding
 /// One pose a pair may have.
 struct PoseHypothesis {
   Eigen::Isometry3d T_a_b = Eigen::Isometry3d::Identity();
-  double log_odds = 0;  ///< that it is right, by the pair alone
+  double log_odds = 0;  ///< that it is right, by the pair and what the set's poses have taught
   /// Its fit started from where other pairs put the scans: that it lies there is no coincidence.
   bool implied = false;
+  double taught = 0;  ///< of the log-odds: the set's constant, which is learnt from its poses
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();  ///< of b's points, in a's frame; PairGraph's
 };
 
@@ -32,7 +33,8 @@ struct ComparedPair {
 struct Agreement {
   double support = 0;
   /// The same against poses at a twin, a place that looks like the right one to all pairs: that a hypothesis is found
-  /// there is no coincidence, implied or not, and only what it shows counts.
+  /// there is no coincidence, implied or not, and only what it shows counts; and what poses at a twin teach of the set
+  /// is wrong.
   double against_twins = 0;
   const PoseHypothesis* hypothesis = nullptr;  ///< that says most; none: none agrees
   double pull = 0;                             ///< [1/m^2] with which it draws the poses to its own

@@ -112,7 +112,7 @@ PairGraph HypothesisSet::graph(const std::vector<bool>& open, const InferenceOpt
   for (const auto& [pair, hypotheses] : pairs_) {
     if (!open[pair.first] || !open[pair.second]) continue;
     ComparedPair compared{pair.first, pair.second, {}};
-    for (const auto& h : hypotheses) compared.hypotheses.push_back({h.T_a_b, h.log_odds, is_implied(h)});
+    for (const auto& h : hypotheses) compared.hypotheses.push_back({h.T_a_b, h.log_odds, is_implied(h), constant_of(h)});
     pairs.push_back(std::move(compared));
   }
   return {std::move(pairs), moments_, same_m(), options};

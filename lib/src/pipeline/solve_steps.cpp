@@ -47,8 +47,8 @@ void transfer(Record& record, T& value) {
 
 template <typename Record, MaybeConst<PoseHypothesis> T>
 void transfer(Record& record, T& value) {
-  auto& [T_a_b, log_odds, implied, mean] = value;
-  record(T_a_b, log_odds, implied, mean);
+  auto& [T_a_b, log_odds, implied, taught, mean] = value;
+  record(T_a_b, log_odds, implied, taught, mean);
 }
 
 template <typename Record, MaybeConst<ComparedPair> T>
