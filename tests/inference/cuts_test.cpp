@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <set>
 
@@ -80,6 +81,40 @@ TEST_F(CutsTest, ManyPairsThatAreUnlikelyAreATwin) {
     EXPECT_NEAR(cut.support, by_twin, kRounding);
     EXPECT_EQ(cut.support > 0, log_odds > 0);
   }
+}
+
+// A constant that only the pairs across have taught is no reason to believe them; one that other pairs teach, too, is.
+TEST_F(CutsTest, WhatPairsAtATwinTeachIsNothingAgainstIt) {
+  constexpr double kAlone = -2, kTaught = 3;
+  const auto support = [&](bool others_teach_it) {
+    HypothesisWorld world(8, rng_);
+    std::vector<ComparedPair> pairs;
+    for (std::size_t a = 0; a < 8; ++a) {
+      for (std::size_t b = a + 1; b < 8; ++b) {
+        const bool is_across = a < 4 && b >= 4;
+        ComparedPair pair{a, b, {world.hypothesis(a, b, kAlone + kTaught)}, {}};
+        pair.hypotheses[0].taught = kTaught;
+        if (is_across || others_teach_it) pair.teachers.assign(3, {kAlone, true, 1});
+        pairs.push_back(pair);
+      }
+    }
+    return measure_cut(world.graph(pairs), world.truth({0, 1, 2, 3, 4, 5, 6, 7}), {4, 5, 6, 7}).support;
+  };
+  EXPECT_LT(support(false), 0);
+  EXPECT_GT(support(true), 10);
+}
+
+TEST_F(CutsTest, FewPairsDoNotChangeASetsConstant) {
+  std::vector<ComparedPair> pairs;
+  for (std::size_t a = 0; a < 6; ++a) {
+    for (std::size_t b = a + 1; b < 6; ++b) {
+      pairs.push_back({a, b, {world_.hypothesis(a, b, 1)}, std::vector<JudgedHypothesis>(a == 0 && b == 1 ? 1 : 9)});
+    }
+  }
+  const PairGraph graph = world_.graph(pairs);
+  EXPECT_EQ(graph.constant_without({0}), std::numeric_limits<double>::infinity());
+  std::vector<JudgedHypothesis> others(1 + 12 * 9);  // of the first pair, and of those behind the third
+  EXPECT_DOUBLE_EQ(graph.constant_without({1, 2}), set_constant(others, options_.set_spread));
 }
 
 // One link is worth what it says: nothing has to agree with it.

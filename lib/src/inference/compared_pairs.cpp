@@ -10,6 +10,8 @@ namespace {
 
 // Hypotheses whose support would be below log(1 + e^-2) = 0.13 change nothing.
 constexpr double kLeastSupported = -2;
+// Of what taught a set's constant: less does not change it by what would matter.
+constexpr double kFewTeachers = 0.05;
 
 }  // namespace
 
@@ -46,6 +48,7 @@ PairGraph::PairGraph(std::vector<ComparedPair> pairs, std::vector<PointMoments> 
   }
   std::erase_if(pairs_, [](const auto& pair) { return pair.hypotheses.empty(); });
   for (std::size_t k = 0; k < pairs_.size(); ++k) {
+    num_teachers_ += pairs_[k].teachers.size();
     of_scan_[pairs_[k].a].push_back(k);
     of_scan_[pairs_[k].b].push_back(k);
   }
@@ -55,8 +58,8 @@ PairGraph::PairGraph(std::vector<ComparedPair> pairs, std::vector<PointMoments> 
   }
 }
 
-Agreement PairGraph::agreement(const ComparedPair& pair, const Eigen::Isometry3d& T_a,
-                               const Eigen::Isometry3d& T_b) const {
+Agreement PairGraph::agreement(const ComparedPair& pair, const Eigen::Isometry3d& T_a, const Eigen::Isometry3d& T_b,
+                               double taught_by_others) const {
   const Eigen::Vector3d mean =
       T_a.linear().transpose() * (T_b * moments_[pair.b].mean - T_a.translation());  // of b in a's frame
   Agreement best;
@@ -70,8 +73,9 @@ Agreement PairGraph::agreement(const ComparedPair& pair, const Eigen::Isometry3d
     const double odds = std::exp(std::min(h.log_odds, options_.most_log_odds) + chance);
     const double missed = h.implied ? std::exp(options_.log_missed) : 1;
     const double says = std::log(missed + odds);
-    const double shows = std::exp(std::min(h.log_odds - std::max(0.0, h.taught), options_.most_log_odds) +
-                                  options_.log_poses - options_.log_implied - near);
+    const double shows =
+        std::exp(std::min(h.log_odds - std::max(0.0, h.taught - taught_by_others), options_.most_log_odds) +
+                 options_.log_poses - options_.log_implied - near);
     const double says_of_twins = std::log(std::exp(options_.log_missed) + shows);
     best.against_twins = best.hypothesis == nullptr ? says_of_twins : std::max(best.against_twins, says_of_twins);
     if (best.hypothesis != nullptr && says <= best.support) continue;
@@ -80,6 +84,23 @@ Agreement PairGraph::agreement(const ComparedPair& pair, const Eigen::Isometry3d
     best.pull = odds / (missed + odds) * options_.log_spread / (beyond_m * beyond_m);
   }
   return best;
+}
+
+double PairGraph::constant_without(const std::vector<std::size_t>& pairs) const {
+  std::size_t count = 0;
+  for (const std::size_t k : pairs) count += pairs_[k].teachers.size();
+  if (static_cast<double>(count) <= kFewTeachers * static_cast<double>(num_teachers_))
+    return std::numeric_limits<double>::infinity();
+  std::vector<JudgedHypothesis> others;
+  auto next = pairs.begin();
+  for (std::size_t k = 0; k < pairs_.size(); ++k) {
+    if (next != pairs.end() && *next == k) {
+      ++next;
+    } else {
+      others.insert(others.end(), pairs_[k].teachers.begin(), pairs_[k].teachers.end());
+    }
+  }
+  return set_constant(others, options_.set_spread);
 }
 
 double PairGraph::most_support(const PoseHypothesis& h) const {

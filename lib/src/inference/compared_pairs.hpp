@@ -4,9 +4,11 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <vector>
 
+#include "inference/set_constant.hpp"
 #include "tcm_icp/core/rigid_transform.hpp"
 #include "tcm_icp/inference/inference_options.hpp"
 
@@ -20,13 +22,14 @@ struct PoseHypothesis {
   double log_odds = 0;  ///< that it is right, by the pair and what the set's poses have taught
   /// Its fit started from where other pairs put the scans: that it lies there is no coincidence.
   bool implied = false;
-  double taught = 0;  ///< of the log-odds: the set's constant, which is learnt from its poses
+  double taught = 0;  ///< of the log-odds: the set's constant, as far as `teachers` have taught it
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();  ///< of b's points, in a's frame; PairGraph's
 };
 
 struct ComparedPair {
   std::size_t a = 0, b = 0;  ///< a < b
   std::vector<PoseHypothesis> hypotheses;
+  std::vector<JudgedHypothesis> teachers = {};  ///< those of it that the set's constant was learnt from, among others
 };
 
 /// What a pair says of its scans' poses.
@@ -96,7 +99,13 @@ class PairGraph {
 
   /// The same, with the hypothesis it is due to. Its pull is the weight that makes a step of least squares one of
   /// ascent in the support.
-  Agreement agreement(const ComparedPair& pair, const Eigen::Isometry3d& T_a, const Eigen::Isometry3d& T_b) const;
+  /// @param taught_by_others  the set's constant by what poses at a twin would not have taught
+  Agreement agreement(const ComparedPair& pair, const Eigen::Isometry3d& T_a, const Eigen::Isometry3d& T_b,
+                      double taught_by_others = std::numeric_limits<double>::infinity()) const;
+
+  /// The set's constant as it would be without these pairs, ascending; infinite where they are too few to matter. Cost:
+  /// all hypotheses that taught it.
+  double constant_without(const std::vector<std::size_t>& pairs) const;
 
   /// What a hypothesis says for poses that agree with it exactly.
   double most_support(const PoseHypothesis& hypothesis) const;
@@ -120,6 +129,7 @@ class PairGraph {
   double same_m_;
   InferenceOptions options_;
   std::vector<std::vector<std::size_t>> of_scan_;
+  std::size_t num_teachers_ = 0;
 };
 
 }  // namespace tcm_icp

@@ -9,11 +9,13 @@ PairsAcross::PairsAcross(const PairGraph& graph, const Component& component, con
     : graph_(graph), component_(component) {
   std::vector<bool> is_moved(graph.num_scans(), false);
   for (const std::size_t i : moved) is_moved[i] = true;
+  std::vector<std::size_t> across;
   for (const std::size_t i : moved) {
     for (const std::size_t k : graph.pairs_of(i)) {
       const ComparedPair& pair = graph.pairs()[k];
       const std::size_t other = pair.a == i ? pair.b : pair.a;
       if (!component.has(other) || is_moved[other]) continue;
+      across.push_back(k);
       double most_support = 0;
       for (const PoseHypothesis& h : pair.hypotheses) {
         hypotheses_.push_back({&h, pairs_.size(), pose(pair.a) * h.mean});
@@ -22,6 +24,8 @@ PairsAcross::PairsAcross(const PairGraph& graph, const Component& component, con
       pairs_.push_back({&pair, pair.b == i, most_support, pose(pair.b) * graph.mean_of(pair.b)});
     }
   }
+  std::sort(across.begin(), across.end());
+  taught_by_others_ = graph.constant_without(across);
 }
 
 Eigen::Isometry3d PairsAcross::motion_by(const Hypothesis& h) const {
@@ -39,7 +43,8 @@ bool PairsAcross::is_elsewhere(const Hypothesis& h) const {
 
 Agreement PairsAcross::agreement_of(const Pair& p, const Eigen::Isometry3d& motion) const {
   const Eigen::Isometry3d &T_a = pose(p.pair->a), &T_b = pose(p.pair->b);
-  return p.moves_b ? graph_.agreement(*p.pair, T_a, motion * T_b) : graph_.agreement(*p.pair, motion * T_a, T_b);
+  return p.moves_b ? graph_.agreement(*p.pair, T_a, motion * T_b, taught_by_others_)
+                   : graph_.agreement(*p.pair, motion * T_a, T_b, taught_by_others_);
 }
 
 bool PairsAcross::may_agree(const Hypothesis& h, const Eigen::Isometry3d& motion, const Eigen::Isometry3d& back) const {

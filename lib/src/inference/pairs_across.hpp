@@ -69,6 +69,7 @@ class PairsAcross {
   const Component& component_;
   std::vector<Pair> pairs_;
   std::vector<Hypothesis> hypotheses_;  // in the order of the pairs
+  double taught_by_others_;  // the set's constant without the pairs across: at a twin they teach what is wrong
 };
 
 }  // namespace tcm_icp

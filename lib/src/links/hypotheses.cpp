@@ -78,6 +78,7 @@ void HypothesisSet::score() {
 bool HypothesisSet::learn_constants(const std::vector<Component>& components, const std::vector<std::vector<Cut>>& cuts,
                                     double set_spread) {
   std::vector<JudgedHypothesis> first, later;
+  teachers_.clear();
   for (std::size_t c = 0; c < components.size(); ++c) {
     const Component& component = components[c];
     const Leads leads(cuts[c], moments_.size());
@@ -89,7 +90,9 @@ bool HypothesisSet::learn_constants(const std::vector<Component>& components, co
       for (const auto& h : hypotheses) {
         if (is_implied(h)) continue;  // agrees with poses right or wrong
         const bool right = rms_displacement((T[a]->inverse() * *T[b]).inverse() * h.T_a_b, moments_[b]) < same_m();
-        (h.is_later ? later : first).push_back({h.log_odds - constant_of(h), right, sure});
+        const JudgedHypothesis judged{h.log_odds - constant_of(h), right, sure};
+        (h.is_later ? later : first).push_back(judged);
+        if (!h.is_later) teachers_[pair].push_back(judged);
       }
     }
   }
@@ -111,8 +114,12 @@ PairGraph HypothesisSet::graph(const std::vector<bool>& open, const InferenceOpt
   std::vector<ComparedPair> pairs;
   for (const auto& [pair, hypotheses] : pairs_) {
     if (!open[pair.first] || !open[pair.second]) continue;
-    ComparedPair compared{pair.first, pair.second, {}};
-    for (const auto& h : hypotheses) compared.hypotheses.push_back({h.T_a_b, h.log_odds, is_implied(h), constant_of(h)});
+    ComparedPair compared{pair.first, pair.second, {}, {}};
+    for (const auto& h : hypotheses) {
+      const double taught = h.is_later ? 0 : reference_.constant;
+      compared.hypotheses.push_back({h.T_a_b, h.log_odds, is_implied(h), taught});
+    }
+    if (const auto taught = teachers_.find(pair); taught != teachers_.end()) compared.teachers = taught->second;
     pairs.push_back(std::move(compared));
   }
   return {std::move(pairs), moments_, same_m(), options};

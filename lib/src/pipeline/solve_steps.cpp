@@ -51,10 +51,16 @@ void transfer(Record& record, T& value) {
   record(T_a_b, log_odds, implied, taught, mean);
 }
 
+template <typename Record, MaybeConst<JudgedHypothesis> T>
+void transfer(Record& record, T& value) {
+  auto& [log_odds, right, sure] = value;
+  record(log_odds, right, sure);
+}
+
 template <typename Record, MaybeConst<ComparedPair> T>
 void transfer(Record& record, T& value) {
-  auto& [a, b, hypotheses] = value;
-  record(a, b, hypotheses);
+  auto& [a, b, hypotheses, teachers] = value;
+  record(a, b, hypotheses, teachers);
 }
 
 template <typename Record, MaybeConst<InferenceOptions> T>
