@@ -78,8 +78,8 @@ class HypothesisSet {
   std::vector<PointMoments> moments_;
   std::map<std::pair<std::size_t, std::size_t>, std::vector<LinkHypothesis>> pairs_;
   SetReference reference_;
-  std::map<std::pair<std::size_t, std::size_t>, std::vector<JudgedHypothesis>>
-      teachers_;  // of the constant of the first
+  // What the constant of those that the first search found was learnt from.
+  std::map<std::pair<std::size_t, std::size_t>, std::vector<JudgedHypothesis>> teachers_;
 };
 
 }  // namespace tcm_icp
