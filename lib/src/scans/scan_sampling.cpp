@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "tcm_icp/core/coverage.hpp"
 #include "tcm_icp/core/error.hpp"
@@ -78,8 +79,8 @@ struct EvenPoints {
 };
 
 constexpr std::size_t kPlanesCompared = 1000;
-constexpr double kSmootherPlanes = 4;   // as much a bent surface is at half the distance; a noisy one is as smooth
-constexpr double kOtherPlane = 0.7071;  // cos 45 degrees: planes nearer to upright on one another than to parallel
+constexpr double kSmootherPlanes = 4;  // as much a bent surface is at half the distance; a noisy one is as smooth
+constexpr double kOtherPlane = std::numbers::pi / 4;  // planes nearer to upright on one another than to parallel
 
 // Where a ring's points are nearer one another than their ranges are noisy, they cover the cone that the scanner sweeps
 // before they cover surfaces. Planes of the cone are far smoother than those of points half as dense, and other ones.
@@ -92,7 +93,7 @@ bool are_planes_of_a_cone(const NormalEstimate& here, const NormalEstimate& next
     cosines.push_back(std::abs(here.normals[i].dot(next.normals[i])));
   }
   return !cosines.empty() && median(roughness_next) > kSmootherPlanes * median(roughness_here) &&
-         median(cosines) < kOtherPlane;
+         median(cosines) < std::cos(kOtherPlane);
 }
 
 // Moves the scan's coverage to where points cover surfaces.
