@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "core/decompositions.hpp"
 #include "envelope.hpp"
@@ -62,26 +63,34 @@ Points drawn_normals(const Cloud& cloud) {
 
 // The directions most normals have, best first.
 void append_normal_peaks(const Points& normals, std::vector<Eigen::Vector3d>& axes) {
+  struct Peak {
+    Eigen::Vector3d start, axis;
+    std::size_t count;
+  };
+  std::vector<Peak> found;
+  for (const auto& start : even_sample(normals, kMaxNormals / 10)) {
+    Eigen::Vector3d axis = start;
+    const std::size_t count = mean_axis(normals, kPeakAngle_deg, axis);
+    found.push_back({start, axis, count});
+  }
   std::vector<Eigen::Vector3d> peaks;
   for (std::size_t k = 0; k < kNumPeaks; ++k) {
-    std::size_t best = 0;
-    Eigen::Vector3d best_axis = Eigen::Vector3d::Zero();
-    for (const auto& start : even_sample(normals, kMaxNormals / 10)) {
-      if (!std::all_of(peaks.begin(), peaks.end(), [&](const auto& p) { return are_distinct(start, p); })) continue;
-      Eigen::Vector3d axis = start;
-      const std::size_t count = mean_axis(normals, kPeakAngle_deg, axis);
-      if (count <= best) continue;
-      best = count;
-      best_axis = axis;
+    const Peak* best = nullptr;
+    for (const Peak& peak : found) {
+      if (peak.count <= (best == nullptr ? 0 : best->count)) continue;
+      if (std::all_of(peaks.begin(), peaks.end(), [&](const auto& p) { return are_distinct(peak.start, p); })) {
+        best = &peak;
+      }
     }
-    if (best == 0) break;
-    peaks.push_back(best_axis);
+    if (best == nullptr) break;
+    peaks.push_back(best->axis);
   }
   axes.insert(axes.end(), peaks.begin(), peaks.end());
 }
 
 struct Axis {
   Eigen::Vector3d direction;
+  Envelope envelope;
   double area = 0;
 };
 
@@ -140,29 +149,30 @@ std::vector<Eigen::Vector3d> find_up_directions(const Cloud& cloud, const Vertic
   for (auto& direction : directions) {
     level_by_normals(normals, direction);
     fix_sign(direction);
-    axes.push_back({direction, static_cast<double>(
-                                   make_envelope(cloud.points, levelling_rotation(direction), cell_m).num_occupied())});
+    Envelope envelope = make_envelope(cloud.points, levelling_rotation(direction), cell_m);
+    const double area = envelope.num_occupied();
+    axes.push_back({direction, std::move(envelope), area});
   }
   std::stable_sort(axes.begin(), axes.end(), [](const Axis& a, const Axis& b) { return a.area > b.area; });
 
-  std::vector<Axis> kept;
+  std::vector<const Axis*> kept;
   for (const Axis& axis : axes) {
     if (static_cast<int>(kept.size()) == options.max_axes) break;
     if (axis.area < options.min_area_ratio * axes.front().area) break;
     if (std::all_of(kept.begin(), kept.end(),
-                    [&](const Axis& k) { return are_distinct(k.direction, axis.direction); })) {
-      kept.push_back(axis);
+                    [&](const Axis* k) { return are_distinct(k->direction, axis.direction); })) {
+      kept.push_back(&axis);
     }
   }
 
   std::vector<Eigen::Vector3d> up;
-  for (const Axis& axis : kept) {
-    const Envelope envelope = make_envelope(cloud.points, levelling_rotation(axis.direction), cell_m);
+  for (const Axis* axis : kept) {
+    const Envelope& envelope = axis->envelope;
     const double low = roughness(envelope, envelope.lowest), high = roughness(envelope, envelope.highest);
     const double sign = high < low ? -1 : 1;
-    up.push_back(sign * axis.direction);
+    up.push_back(sign * axis->direction);
     // Where both are zero nothing is shown either.
-    if (std::min(low, high) >= options.max_roughness_ratio * std::max(low, high)) up.push_back(-sign * axis.direction);
+    if (std::min(low, high) >= options.max_roughness_ratio * std::max(low, high)) up.push_back(-sign * axis->direction);
   }
   return up;
 }

@@ -27,7 +27,7 @@ Eigen::Matrix<double, 3, 2> across(const Eigen::Vector3d& axis) {
 }
 
 struct Normals {
-  Information information = Information::Zero();
+  Information information = Information::Zero();  ///< its lower half, which is what its factors are made of
   Step gradient = Step::Zero();
   double square = 0, weight = 0;
 };
@@ -50,7 +50,10 @@ Normals normal_equations(const Sweep& sweep, const LinePieces& pieces, std::size
     slope.tail<2>() = basis.transpose() * (square * g - g.dot(r) * r);
     const double inlier = 1 / (1 + e * e / (scale * scale));
     const double w = inlier * inlier;
-    sum.information += w * slope * slope.transpose();
+    const Step weighted = w * slope;
+    for (int column = 0; column < 5; ++column) {
+      for (int row = column; row < 5; ++row) sum.information(row, column) += weighted[row] * slope[column];
+    }
     sum.gradient += w * e * slope;
     sum.square += w * e * e;
     sum.weight += w;
