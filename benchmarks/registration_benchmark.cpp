@@ -1,7 +1,9 @@
 // Registration of one pair of scans: register_lp against PCL, on the same sampled points and from the same eight
 // starts.
 //
-//   tcm_icp_benchmark_registration [--pair TARGET SOURCE TRUTH.json]... [Google Benchmark's options]
+//   tcm_icp_benchmark_registration [--dump FOLDER] [--pair TARGET SOURCE TRUTH.json]... [Google Benchmark's options]
+//
+// --dump writes what the methods are given to FOLDER, a folder a pair, for programs that are no libraries to us.
 //
 // Times are from sampled points without normals to the pose: whatever a method needs besides (normals, trees,
 // covariances) counts. Counters are the error against the truth: of all eight starts the median and the worst.
@@ -10,8 +12,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <functional>
 #include <iostream>
+#include <nlohmann/json.hpp>
 #include <numbers>
 #include <string>
 #include <string_view>
@@ -21,7 +26,9 @@
 #include "scan_pair.hpp"
 #include "tcm_icp/core/error.hpp"
 #include "tcm_icp/core/normals.hpp"
+#include "tcm_icp/core/place_sampling.hpp"
 #include "tcm_icp/core/rigid_transform.hpp"
+#include "tcm_icp/io/scan_writer.hpp"
 #include "tcm_icp/registration/lp_registration.hpp"
 #include "tcm_icp/registration/normal_space_sampling.hpp"
 #ifdef TCM_ICP_HAVE_PCL
@@ -60,7 +67,8 @@ Eigen::Isometry3d run_lp(const ScanPair& pair, const Eigen::Isometry3d& T_init, 
   if (num_samples > 0) {
     Rng rng = make_stream(4, "benchmark sample");
     Cloud sampled;
-    for (const std::size_t i : normal_space_sample(source, num_samples, rng)) {
+    const auto priorities = place_priorities(source.points, pair.voxel_size_m, rng);
+    for (const std::size_t i : normal_space_sample(source, num_samples, priorities)) {
       sampled.points.push_back(source.points[i]);
       sampled.normals.push_back(source.normals[i]);
     }
@@ -125,21 +133,53 @@ void run_method(benchmark::State& state, const ScanPair& pair, const Method& met
   state.counters["worst_rmse_m"] = *std::max_element(rmse_m.begin(), rmse_m.end());
 }
 
-std::vector<ScanPair> pairs_of_arguments(int argc, char** argv) {
+nlohmann::json rows_of(const Eigen::Isometry3d& T) {
+  nlohmann::json rows = nlohmann::json::array();
+  for (Eigen::Index row = 0; row < 4; ++row) rows.push_back({T(row, 0), T(row, 1), T(row, 2), T(row, 3)});
+  return rows;
+}
+
+void dump(const ScanPair& pair, const std::filesystem::path& folder) {
+  const auto starts = starts_near_truth(pair, kNumStarts);
+  const Gates gates = gates_of(pair, starts);
+  std::filesystem::create_directories(folder);
+  write_scan(folder / "target.ply", {.points = pair.target, .attributes = {}}, {});
+  write_scan(folder / "source.ply", {.points = pair.source, .attributes = {}}, {});
+  nlohmann::json json{{"voxel_size_m", pair.voxel_size_m},
+                      {"gates_m", {gates.initial_m, gates.final_m}},
+                      {"T_target_source", rows_of(pair.T_target_source)},
+                      {"starts", nlohmann::json::array()}};
+  for (const auto& T : starts) json["starts"].push_back(rows_of(T));
+  std::ofstream(folder / "pair.json") << json.dump(1) << '\n';
+}
+
+struct Arguments {
   std::vector<ScanPair> pairs{street_pair()};
-  for (int i = 1; i < argc; i += 4) {
-    if (std::string_view(argv[i]) != "--pair" || i + 3 >= argc) {
-      throw InvalidOptions("expected --pair TARGET SOURCE TRUTH.json, not " + std::string(argv[i]));
+  std::filesystem::path dump_folder;
+};
+
+Arguments parse(int argc, char** argv) {
+  Arguments out;
+  for (int i = 1; i < argc;) {
+    const std::string_view name = argv[i];
+    if (name == "--dump" && i + 1 < argc) {
+      out.dump_folder = argv[i + 1];
+      i += 2;
+    } else if (name == "--pair" && i + 3 < argc) {
+      out.pairs.push_back(read_pair(argv[i + 1], argv[i + 2], argv[i + 3]));
+      i += 4;
+    } else {
+      throw InvalidOptions("expected --dump FOLDER or --pair TARGET SOURCE TRUTH.json, not " + std::string(name));
     }
-    pairs.push_back(read_pair(argv[i + 1], argv[i + 2], argv[i + 3]));
   }
-  return pairs;
+  return out;
 }
 
 int run(int argc, char** argv) {
   benchmark::Initialize(&argc, argv);
-  const std::vector<ScanPair> pairs = pairs_of_arguments(argc, argv);
-  for (const ScanPair& pair : pairs) {
+  const Arguments arguments = parse(argc, argv);
+  for (const ScanPair& pair : arguments.pairs) {
+    if (!arguments.dump_folder.empty()) dump(pair, arguments.dump_folder / pair.name);
     for (const auto& [name, method] : methods()) {
       benchmark::RegisterBenchmark((pair.name + "/" + name).c_str(), run_method, pair, method)
           ->Iterations(kNumStarts)

@@ -81,13 +81,13 @@ def measured(exe, town, num_scans, threads, options, out):
                                "--threads", str(threads), *options])
         times.write_text(json.dumps({"cpu_s": cpu_s, "wall_s": wall_s}), encoding="utf-8")
     counts, details = score_poses(scene, result / "poses.json")
-    stages = {s["name"]: s for s in json.loads((result / "report.json").read_text(encoding="utf-8"))["stages"]}
+    stages = json.loads((result / "report.json").read_text(encoding="utf-8"))["stages"]
     spent_s = json.loads(times.read_text(encoding="utf-8"))
     largest_m = max(rmse for _, _, rmse in details.values() if rmse is not None)
-    memory_mb = max(s["peak_memory_mb"] for s in stages.values())
+    memory_mb = max(s["peak_memory_mb"] for s in stages)
     return (num_scans, counts["ok"], counts["flagged"], counts["wrong"], round(1000 * largest_m),
             round(spent_s["cpu_s"]), round(spent_s["wall_s"]), round(memory_mb),
-            *(round(sum(stages[name]["seconds"] for name in stages if name == stage)) for stage in STAGES))
+            *(round(sum(s["seconds"] for s in stages if s["name"] == name)) for name in STAGES))
 
 
 def draw(rows, path):
@@ -135,8 +135,8 @@ def main():
         with open(arguments.out / "large-sets.csv", "w", newline="", encoding="utf-8") as f:
             out = csv.writer(f)
             out.writerow(HEADER)
-            out.writerows(rows)
-    draw(rows, arguments.out / "results-large-sets.png")
+            out.writerows(sorted(rows))
+    draw(sorted(rows), arguments.out / "results-large-sets.png")
     if arguments.docs:
         shutil.copy(arguments.out / "large-sets.csv", REPOSITORY / "docs" / "results")
         shutil.copy(arguments.out / "results-large-sets.png", REPOSITORY / "docs" / "images")

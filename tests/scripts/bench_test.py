@@ -1,0 +1,82 @@
+"""Checks of scripts/benchmark, without the programs that it measures: files, errors, sets. Needs numpy."""
+
+import json
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+from unittest import mock
+
+import numpy as np
+
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent.parent / "scripts"))
+
+from benchmark import files, growth, pairs
+from benchmark.spent import Missing, require, run
+from ply import read_points
+
+
+class Files(unittest.TestCase):
+    def test_all_formats_hold_the_same_points(self):
+        with tempfile.TemporaryDirectory() as name:
+            written = files.write_files(Path(name), 1000)
+            points = read_points(written["PLY"])
+            self.assertEqual(len(points), 1000)
+            self.assertTrue(written["PCD"].read_bytes().endswith(points.astype("<f4").tobytes()))
+            np.testing.assert_allclose(np.loadtxt(written["text"]), points[:400], atol=1e-5)
+
+    def test_a_program_that_finds_other_points_is_left_out(self):
+        def honest(file, _):
+            return {"read_s": 1, "write_s": 1, "points": 40 if file.suffix == ".xyz" else 100}
+
+        def liar(*_):
+            return {"read_s": 0.1, "write_s": 0.1, "points": 3}
+
+        with tempfile.TemporaryDirectory() as name, mock.patch("sys.stderr"), \
+             mock.patch.object(files, "programs", return_value={"TCM-ICP": honest, "liar": liar}):
+            rows = files.measure(Path(name), None, 100, 2)
+        self.assertEqual({row[2] for row in rows}, {"TCM-ICP"})
+        self.assertEqual(len(rows), 4)
+
+
+class Pairs(unittest.TestCase):
+    def test_the_truth_has_no_error(self):
+        T = np.eye(4)
+        T[:3, 3] = 1, 2, 3
+        rotation, rmse = pairs.error_of({"T_target_source": T.tolist()}, np.ones((5, 3)), T)
+        self.assertEqual((rotation, rmse), (0, 0))
+
+    def test_a_turn_and_a_shift_are_found(self):
+        turned = np.array([[0.0, -1, 0, 0], [1, 0, 0, 0], [0, 0, 1, 0.5], [0, 0, 0, 1]])
+        source = np.array([[1.0, 0, 0], [0, 1, 0]])
+        rotation, rmse = pairs.error_of({"T_target_source": np.eye(4).tolist()}, source, turned)
+        self.assertAlmostEqual(rotation, 90)
+        self.assertAlmostEqual(rmse, 1000 * np.sqrt(2 + 0.25))
+
+
+class Growth(unittest.TestCase):
+    def test_first_scans_keep_their_truth(self):
+        with tempfile.TemporaryDirectory() as name:
+            scene = Path(name) / "street"
+            scene.mkdir()
+            scans = [{"file": f"{k}.ply", "pose": k} for k in range(4)]
+            (scene / "truth.json").write_text(json.dumps({"scans": scans, "overlap": [[1] * 4] * 4}))
+            for scan in scans:
+                (scene / scan["file"]).write_bytes(b"ply\nelement vertex 7\nend_header\n")
+            folder = growth.first_of(scene, 2)
+            self.assertEqual(json.loads((folder / "truth.json").read_text()), {"scans": scans[:2]})
+            self.assertEqual([growth.points_of(p) for p in sorted(folder.glob("*.ply"))], [7, 7])
+
+
+class Programs(unittest.TestCase):
+    def test_what_is_missing_is_said_with_its_package(self):
+        with self.assertRaisesRegex(Missing, "apt install nothing"):
+            require("no-program-of-this-name", "nothing")
+
+    def test_a_failure_is_an_error_with_what_the_program_said(self):
+        with self.assertRaisesRegex(RuntimeError, "exit status 3: too bad"):
+            run(["sh", "-c", "echo too bad; exit 3"])
+
+
+if __name__ == "__main__":
+    unittest.main()
