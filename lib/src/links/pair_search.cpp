@@ -27,7 +27,9 @@ namespace {
 // with all others in the end, coarse height maps of all pairs do, which cost least; in others words choose, from scans
 // that are described once.
 constexpr std::size_t kFirstPartners = 6;
-// Of those that look alike so many times as many are aligned by features, which tell far better who overlaps.
+// Of those that look alike so many times as many are aligned by features, which tell far better who overlaps. Few scans
+// that are left are aligned with more, as long as together they take no more than the first partners of all did: words
+// are no use to those whose neighbours were seen from another side.
 constexpr std::size_t kAlignedByReach = 4;
 // Doubled twice: a scan that has no clear place by then would cost as much again for every scan of a large set.
 constexpr std::size_t kMostPartners = 24;
@@ -106,7 +108,8 @@ struct PairSearch::Impl {
   }
 
   /// Of a scan those outside its group, the likeliest first: at most as many as it reaches.
-  std::vector<std::size_t> partners(std::size_t scan, const std::vector<std::size_t>& groups) {
+  /// @param num_wanted  how many scans are asked for theirs
+  std::vector<std::size_t> partners(std::size_t scan, const std::vector<std::size_t>& groups, std::size_t num_wanted) {
     std::vector<std::size_t> out;
     for (std::size_t j = 0; j < scans.size(); ++j) {
       if (groups[j] != groups[scan]) out.push_back(j);
@@ -125,12 +128,12 @@ struct PairSearch::Impl {
         describe();
         words.emplace(described, context.num_threads);
       }
-      keep_best(words->likeness(scan), kAlignedByReach * reach[scan]);
+      keep_best(words->likeness(scan),
+                std::max(kAlignedByReach * reach[scan], kFirstPartners * scans.size() / num_wanted));
     }
     ScanPairs pairs;
     for (const std::size_t j : out) pairs.push_back(std::minmax(scan, j));
-    const std::vector<double> of_pairs =
-        scans.size() > kMostPartners + 1 ? feature_scores(pairs) : height_maps.scores(pairs);
+    const std::vector<double> of_pairs = is_large() ? feature_scores(pairs) : height_maps.scores(pairs);
     std::vector<double> score(scans.size(), 0);
     for (std::size_t k = 0; k < out.size(); ++k) score[out[k]] = of_pairs[k];
     keep_best(score, reach[scan]);
@@ -181,9 +184,10 @@ struct PairSearch::Impl {
   /// Pairs of each wanted scan with its likeliest partners outside its group, by what they were tried by.
   std::map<Tried, ScanPairs> pairs(const std::vector<bool>& wanted, const std::vector<std::size_t>& groups) {
     std::set<ScanPairs::value_type> chosen;
+    const auto num_wanted = static_cast<std::size_t>(std::count(wanted.begin(), wanted.end(), true));
     for (std::size_t i = 0; i < scans.size(); ++i) {
       if (!wanted[i]) continue;
-      for (const std::size_t j : partners(i, groups)) chosen.insert(std::minmax(i, j));
+      for (const std::size_t j : partners(i, groups, num_wanted)) chosen.insert(std::minmax(i, j));
     }
     std::map<Tried, ScanPairs> out;
     for (const auto& pair : chosen) {
