@@ -1,6 +1,7 @@
 // Reads a cloud, and writes it where a second file is named, for scripts/bench.py:
 //   tcm_icp_cloud_io tcm-icp|pcl IN [OUT]
-// The coordinates alone, all of them in memory. Prints one line of JSON: points, and the processor time of each in seconds.
+// The coordinates alone, all of them in memory. Prints one line of JSON: points, and the processor time of each in
+// seconds.
 
 #include <ctime>
 #include <exception>
@@ -91,7 +92,8 @@ int main(int argc, char** argv) {
   }
   try {
     const auto cost = tcm_icp::measure(argv[1], argv[2], argc == 4 ? argv[3] : "");
-    std::cout << "{\"points\": " << cost.points << ", \"read_s\": " << cost.read_s << ", \"write_s\": " << cost.write_s << "}\n";
+    std::cout << "{\"points\": " << cost.points << ", \"read_s\": " << cost.read_s << ", \"write_s\": " << cost.write_s
+              << "}\n";
     return 0;
   } catch (const std::exception& error) {
     std::cerr << argv[0] << ": " << error.what() << '\n';
