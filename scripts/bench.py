@@ -1,14 +1,15 @@
 #!/usr/bin/env python3
 """Measures this program beside PCL, Open3D and CloudCompare in one run: one command, ratios that can be compared.
 
-  bench.py --out DIR [--parts files pairs sets growth] [--exe TCM_ICP] [--scenes DIR...] [--points N] [--docs]
+  bench.py --out DIR [--parts files pairs sets growth volume] [--exe TCM_ICP] [--scenes DIR...] [--points N] [--docs]
 
   files   reading and writing a cloud of --points points (5 million): PLY, PCD, text
   pairs   registration of a pair from eight starts near the truth
   sets    whole sets without initial poses: simulated scenes, and the folders of scans and truth.json in --scenes
   growth  our own time and memory against points, scans and threads
+  volume  ten scans of 100 million points together, beside merely reading and writing them (4 GB in DIR)
 
-DIR gets a CSV file and a picture for each part, and tables.md. --docs copies them to docs/results and docs/images. A part's table
+DIR gets a CSV file for each part, pictures, and tables.md. --docs copies them to docs/results and docs/images. A part's table
 that is there is used again. All parts take about an hour; keep the machine quiet meanwhile. Processor time of one core, all of
 it, is what is compared. Builds what it needs of benchmarks/ in build/bench. A program that is missing is left out, and said to be.
 Needs python3-numpy, python3-matplotlib and what `install_dependencies.sh --benchmarks --comparison --outside` installs.
@@ -28,7 +29,7 @@ try:
 except ImportError:
     sys.exit("bench.py: apt install python3-numpy python3-matplotlib, and run it with /usr/bin/python3")
 
-from benchmark import files, growth, pairs, sets
+from benchmark import files, growth, pairs, sets, volume
 from benchmark.spent import say
 from paper.executable import find_exe
 from paper.provenance import REPOSITORY
@@ -37,7 +38,8 @@ BUILD = REPOSITORY / "build" / "bench"
 PROGRAMS = BUILD / "benchmarks"
 TARGETS = ("tcm_icp_cloud_io", "tcm_icp_benchmark_registration", "tcm_icp_pcl_multiway")
 TITLES = {"files": "Reading and writing", "pairs": "Registration of a pair", "sets": "Whole sets without initial poses",
-          "growth": "Growth"}
+          "growth": "Growth", "volume": "Very many points"}
+MODULES = {"files": files, "pairs": pairs, "sets": sets, "growth": growth, "volume": volume}
 ROUNDS = 3
 
 
@@ -60,12 +62,14 @@ def measure(part, work, arguments, exe):
         return pairs.measure(work, PROGRAMS / TARGETS[1], words)
     if part == "sets":
         return sets.measure(work, exe, PROGRAMS / TARGETS[2], arguments.scenes, arguments.cpu_limit)
+    if part == "volume":
+        return volume.measure(work, exe, PROGRAMS / TARGETS[0], arguments.volume)
     return growth.measure(work, exe)
 
 
 def table(part, arguments, exe):
     """(header, rows) of a part, measured where DIR has none."""
-    header = {"files": files, "pairs": pairs, "sets": sets, "growth": growth}[part].HEADER
+    header = MODULES[part].HEADER
     path = arguments.out / f"bench-{part}.csv"
     if not path.exists():
         work = arguments.out / part
@@ -92,6 +96,7 @@ def main():
     parser.add_argument("--parts", nargs="+", choices=list(TITLES), default=list(TITLES))
     parser.add_argument("--scenes", nargs="+", type=Path, default=[], help="folders of scans and truth.json, for pairs and sets")
     parser.add_argument("--points", type=int, default=5_000_000, help="of the cloud that is read and written")
+    parser.add_argument("--volume", type=int, default=100_000_000, help="points of the ten scans of volume")
     parser.add_argument("--cpu-limit", type=float, default=120, help="[s] of the others, for a set (compare_registration.py)")
     parser.add_argument("--docs", action="store_true", help="copy tables and pictures to docs/")
     arguments = parser.parse_args()
@@ -107,11 +112,13 @@ def main():
     for part in arguments.parts:
         header, rows = table(part, arguments, exe)
         texts.append(markdown(part, header, rows))
-        picture = arguments.out / f"results-bench-{part}.png"
-        getattr(charts, f"draw_{part}")(rows, picture)
+        draw, picture = charts.PICTURES.get(part), arguments.out / f"results-bench-{part}.png"
+        if draw:
+            draw(rows, picture)
         if arguments.docs:
             shutil.copy(arguments.out / f"bench-{part}.csv", REPOSITORY / "docs" / "results")
-            shutil.copy(picture, REPOSITORY / "docs" / "images")
+            if draw:
+                shutil.copy(picture, REPOSITORY / "docs" / "images")
     (arguments.out / "tables.md").write_text("\n".join(texts), encoding="utf-8")
     print("\n".join(texts), end="")
 

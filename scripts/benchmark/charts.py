@@ -85,3 +85,6 @@ def draw_growth(rows, path):
         ax.grid(alpha=0.3)
         ax.legend(fontsize=8)
     save(fig, path)
+
+
+PICTURES = {"files": draw_files, "pairs": draw_pairs, "sets": draw_sets, "growth": draw_growth}
