@@ -73,6 +73,11 @@ class Programs(unittest.TestCase):
         with self.assertRaisesRegex(Missing, "apt install nothing"):
             require("no-program-of-this-name", "nothing")
 
+    def test_memory_is_the_program_s_own(self):
+        held = np.ones(60_000_000)
+        del held
+        self.assertLess(run(["true"]).memory_mb, 300)
+
     def test_a_failure_is_an_error_with_what_the_program_said(self):
         with self.assertRaisesRegex(RuntimeError, "exit status 3: too bad"):
             run(["sh", "-c", "echo too bad; exit 3"])
