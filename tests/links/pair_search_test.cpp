@@ -7,6 +7,7 @@
 #include <numeric>
 #include <string>
 
+#include "io/temp_files.hpp"
 #include "pipeline/prepared_scene.hpp"
 #include "tcm_icp/coarse/vertical.hpp"
 #include "tcm_icp/core/error.hpp"
@@ -234,6 +235,23 @@ TEST(PairSearch, AFewScansOfALargeSetAreTriedByAllMethodsAtOnce) {
     EXPECT_EQ(set.pairs().size(), partners);
   }
   EXPECT_FALSE(search.extend(wanted, apart(kAll), set)) << "that it has 24 partners is enough";
+}
+
+// Words choose whom a scan is aligned with, 24 others at first; the last one meets the whole set.
+TEST(PairSearch, TheLastScanOfALargeSetIsAlignedWithAll) {
+  constexpr std::size_t kAll = 30;
+  Rng rng = make_stream(8, "pair_search_test");
+  PreparedScene s = testing::prepared_scene({.num_scans = kAll, .points_per_scan = 800}, rng);
+  for (std::size_t i = 0; i < kAll; ++i) s.scans[i].digest = std::to_string(i);
+  const test::TempFolder folder;
+  const StepStore store(folder.path() / "work");
+  PairSearch search(s.scans, kOptions, kContext, {&store, {}});
+  HypothesisSet set = no_hypotheses(s);
+  std::vector<bool> wanted(kAll, false);
+  wanted[3] = true;
+  ASSERT_TRUE(search.extend(wanted, apart(kAll), set));
+  EXPECT_EQ(store.counts()["features"].num_made, kAll - 1);
+  EXPECT_EQ(set.pairs().size(), 6u);
 }
 
 TEST(PairSearch, AStrangersPosesAreLessLikelyThanThoseOfScansOfOnePlace) {
