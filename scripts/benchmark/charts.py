@@ -24,7 +24,6 @@ def grouped_bars(ax, groups, series, values, colours):
         ax.bar(np.arange(len(groups)) + (k - (len(series) - 1) / 2) * width, heights, width, label=name, color=colours[name])
     ax.set_xticks(range(len(groups)), groups)
     ax.grid(axis="y", alpha=0.3)
-    ax.legend(fontsize=8)
 
 
 def draw_files(rows, path):
@@ -33,6 +32,7 @@ def draw_files(rows, path):
     grouped_bars(ax, list(dict.fromkeys(group for group, _ in values)), [p for p in COLOURS if any(p == q for _, q in values)],
                  values, COLOURS)
     ax.set_yscale("log")
+    ax.legend(fontsize=8)
     ax.set_ylabel("million points a second of one core")
     save(fig, path)
 
@@ -62,6 +62,7 @@ def draw_sets(rows, path):
     left.set_ylabel("scans placed right [%]")
     right.set_ylabel("processor time [s]")
     right.set_yscale("log")
+    right.legend(fontsize=8, loc="upper left", bbox_to_anchor=(1, 1))
     for ax in (left, right):
         ax.tick_params(axis="x", rotation=20)
     save(fig, path)
@@ -81,6 +82,9 @@ def draw_growth(rows, path):
             ax.loglog(size, cpu_s, "o-", label="processor time [s]")
             ax.loglog(size, memory_mb, "s-", color="#d62728", label="memory [MB]")
             ax.loglog(size, cpu_s[0] * size / size[0], "--", color="#888888", label="in proportion")
+        if what != "points":
+            ax.set_xticks(size, [f"{n:g}" for n in size])
+            ax.minorticks_off()
         ax.set_xlabel("points a scan" if what == "points" else what)
         ax.grid(alpha=0.3)
         ax.legend(fontsize=8)
