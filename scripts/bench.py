@@ -9,7 +9,7 @@
   growth  our own time and memory against points, scans and threads
   volume  ten scans of 100 million points together, beside merely reading and writing them (4 GB in DIR)
 
-DIR gets a CSV file for each part, pictures, and tables.md. --docs copies them to docs/results and docs/images. A part's table
+DIR gets a CSV file for each part, pictures, tables.md and provenance.json. --docs copies them to docs/results and docs/images. A part's table
 that is there is used again. All parts take about an hour; keep the machine quiet meanwhile. Processor time of one core, all of
 it, is what is compared. Builds what it needs of benchmarks/ in build/bench. A program that is missing is left out, and said to be.
 Needs python3-numpy, python3-matplotlib and what `install_dependencies.sh --benchmarks --comparison --outside` installs.
@@ -17,6 +17,7 @@ Needs python3-numpy, python3-matplotlib and what `install_dependencies.sh --benc
 
 import argparse
 import csv
+import json
 import shutil
 import subprocess
 import sys
@@ -32,7 +33,7 @@ except ImportError:
 from benchmark import files, growth, pairs, sets, volume
 from benchmark.spent import say
 from paper.executable import find_exe
-from paper.provenance import REPOSITORY
+from paper.provenance import REPOSITORY, add_tables, origin
 
 BUILD = REPOSITORY / "build" / "bench"
 PROGRAMS = BUILD / "benchmarks"
@@ -77,6 +78,7 @@ def table(part, arguments, exe):
         rows = measure(part, work, arguments, exe)
         with open(path, "w", newline="", encoding="utf-8") as f:
             csv.writer(f).writerows([header, *rows])
+        add_tables(arguments.out, {f"bench-{part}": origin(exe)})
     with open(path, newline="", encoding="utf-8") as f:
         rows = list(csv.reader(f))
     if tuple(rows[0]) != header:
@@ -116,6 +118,8 @@ def main():
         if draw:
             draw(rows, picture)
         if arguments.docs:
+            known = json.loads((arguments.out / "provenance.json").read_text(encoding="utf-8"))["tables"]
+            add_tables(REPOSITORY / "docs" / "results", {f"bench-{part}": known[f"bench-{part}"]})
             shutil.copy(arguments.out / f"bench-{part}.csv", REPOSITORY / "docs" / "results")
             if draw:
                 shutil.copy(picture, REPOSITORY / "docs" / "images")

@@ -80,3 +80,23 @@ def record_tables(folder, names, found):
     for name in names:
         whole["tables"][name] = {key: found[key] for key in keys}
     path.write_text(json.dumps(whole, indent=1, sort_keys=False) + "\n", encoding="utf-8")
+
+
+def origin(exe):
+    """Where a table of one run comes from, for add_tables()."""
+    import numpy
+    versions = {name: output_of("dpkg-query", "-W", "-f", "${Version}", package)
+                for name, package in (("pcl", "libpcl-dev"), ("open3d", "python3-open3d"), ("cloudcompare", "cloudcompare"))}
+    return {"command": "scripts/" + Path(sys.argv[0]).name + " " + " ".join(sys.argv[1:]),
+            "commit": output_of("git", "rev-parse", "HEAD"),
+            "uncommitted_changes": output_of("git", "status", "--porcelain", "--untracked-files=no") != "",
+            "program": program(exe), **versions, "python": platform.python_version(), "numpy": numpy.__version__,
+            "processor": processor()}
+
+
+def add_tables(folder, origins):
+    """Adds the origins of tables, by name, to those that the folder's provenance.json has."""
+    path = folder / "provenance.json"
+    whole = json.loads(path.read_text(encoding="utf-8")) if path.exists() else {"tables": {}}
+    whole["tables"].update(origins)
+    path.write_text(json.dumps(whole, indent=1, sort_keys=False) + "\n", encoding="utf-8")
