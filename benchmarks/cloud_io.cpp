@@ -1,5 +1,5 @@
-// Reads a cloud, and writes it where a second file is named, for scripts/bench.py:
-//   tcm_icp_cloud_io tcm-icp|pcl IN [OUT]
+// Reads a cloud, and writes it as PLY where a second file is named, for scripts/bench.py:
+//   tcm_icp_cloud_io tcm-icp|pcl IN [OUT.ply]
 // The coordinates alone, all of them in memory. Prints one line of JSON: points, and the processor time of each in
 // seconds.
 
@@ -30,7 +30,6 @@ struct Cost {
 };
 
 Cost by_tcm_icp(const std::string& in, const std::string& out) {
-  Cost cost;
   PointBlock cloud;
   const double begin_s = cpu_s();
   ScanReader reader(in, ReadAttributes::kNo);
@@ -59,17 +58,13 @@ int pcl_read(const std::string& file, PclPoints& cloud) {
   return status;
 }
 
-int pcl_write(const std::string& file, const PclPoints& cloud) {
-  if (std::filesystem::path(file).extension() == ".ply") return pcl::io::savePLYFileBinary(file, cloud);
-  return pcl::io::savePCDFileBinary(file, cloud);
-}
-
 Cost by_pcl(const std::string& in, const std::string& out) {
   PclPoints cloud;
   const double begin_s = cpu_s();
   if (pcl_read(in, cloud) < 0) throw std::runtime_error(in + ": PCL cannot read it");
   const double read_s = cpu_s();
-  if (!out.empty() && pcl_write(out, cloud) < 0) throw std::runtime_error(out + ": PCL cannot write it");
+  if (!out.empty() && pcl::io::savePLYFileBinary(out, cloud) < 0)
+    throw std::runtime_error(out + ": PCL cannot write it");
   return {cloud.size(), read_s - begin_s, cpu_s() - read_s};
 }
 #endif

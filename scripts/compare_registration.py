@@ -36,6 +36,8 @@ BUILD = HERE.parent / "build" / "release"
 METHODS = ("tcm-icp", "open3d-ransac", "open3d-fgr", "pcl")
 COLUMNS = ("scene", "method", "scans ok", "flagged", "WRONG", "CPU s", "one size", "wall s", "peak MB", "note")
 
+from benchmark.spent import forget_peak
+
 try:
     from score_poses import score_poses
 except ImportError:
@@ -65,6 +67,7 @@ def run_pinned(cmd, log, core, cpu_limit):
         resource.setrlimit(resource.RLIMIT_CPU, (hard_limit, hard_limit + 5))
 
     environment = dict(os.environ, OMP_NUM_THREADS="1", OPENBLAS_NUM_THREADS="1")
+    forget_peak()
     begin = time.monotonic()
     with open(log, "wb") as out:
         child = subprocess.Popen(cmd, stdout=out, stderr=subprocess.STDOUT, env=environment, preexec_fn=pin)

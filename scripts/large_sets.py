@@ -28,6 +28,7 @@ except ImportError:
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 
+from first_scans import first_scans
 from paper.executable import find_exe
 from paper.provenance import REPOSITORY
 from score_poses import score_poses
@@ -57,25 +58,13 @@ def simulated(exe, num_scans, out):
     return town
 
 
-def first_scans(town, num_scans, folder):
-    """Links to the first scans of a town in a folder of their own, with their truth."""
-    truth = json.loads((town / "truth.json").read_text(encoding="utf-8"))
-    if num_scans > len(truth["scans"]):
-        sys.exit(f"large_sets.py: {town} has {len(truth['scans'])} scans, not {num_scans}: name another --out")
-    del truth["overlap"]
-    truth["scans"] = truth["scans"][:num_scans]
-    folder.mkdir(exist_ok=True)
-    for scan in truth["scans"]:
-        link = folder / scan["file"]
-        if not link.exists():
-            link.symlink_to((town / scan["file"]).resolve())
-    (folder / "truth.json").write_text(json.dumps(truth), encoding="utf-8")
-
-
 def measured(exe, town, num_scans, threads, options, out):
     """A line of the table."""
     scene, result, times = out / f"scans-{num_scans}", out / f"result-{num_scans}", out / f"times-{num_scans}.json"
-    first_scans(town, num_scans, scene)
+    try:
+        first_scans(town, num_scans, scene)
+    except ValueError as error:
+        sys.exit(f"large_sets.py: {error}: name another --out")
     if not times.exists() or not (result / "poses.json").exists():
         cpu_s, wall_s = spent([exe, "register", *sorted(scene.glob("*.ply")), "--out", result, "--force", "--quiet",
                                "--threads", str(threads), *options])

@@ -4,6 +4,7 @@ import numpy as np
 
 from benchmark.spent import OPEN3D_PYTHON, Missing, json_of, require, run, say
 from paper.provenance import REPOSITORY
+from ply import header_of_points
 
 HEADER = ("format", "operation", "program", "points", "processor time [s]", "million points/s", "times ours")
 SIDE_M = 100.0
@@ -22,9 +23,7 @@ def write_files(folder, num_points):
     points = made_up_points(num_points)
     raw = points.astype("<f4").tobytes()
     files = {"PLY": folder / "cloud.ply", "PCD": folder / "cloud.pcd", "text": folder / "cloud.xyz"}
-    fields = "".join(f"property float {axis}\n" for axis in "xyz")
-    files["PLY"].write_bytes(
-        f"ply\nformat binary_little_endian 1.0\nelement vertex {num_points}\n{fields}end_header\n".encode() + raw)
+    files["PLY"].write_bytes(header_of_points(num_points, "float") + raw)
     files["PCD"].write_bytes((f"# .PCD v0.7\nVERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH {num_points}\n"
                               f"HEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS {num_points}\nDATA binary\n").encode() + raw)
     np.savetxt(files["text"], points[: 2 * num_points // 5], fmt="%.4f")
@@ -73,9 +72,9 @@ def measure(folder, cloud_io, num_points, rounds):
     """Rows of HEADER; the least of so many rounds, in which programs take turns."""
     files = write_files(folder, num_points)
     least, counts = {}, {name: 2 * num_points // 5 if name == "text" else num_points for name in files}
-    refused = set()
+    refused, known = set(), programs(folder, cloud_io)
     for _ in range(rounds):
-        for name, program in programs(folder, cloud_io).items():
+        for name, program in known.items():
             for kind, file in files.items():
                 if (name, kind) in refused:
                     continue

@@ -1,9 +1,10 @@
 """How our time and memory grow with points, scans and threads."""
 
-import json
 import os
 
 from benchmark.spent import run, say
+from first_scans import first_scans
+from ply import read_header
 from score_poses import score_poses
 
 HEADER = ("with", "value", "scans", "points a scan", "right", "processor time [s]", "wall time [s]", "memory [MB]")
@@ -20,25 +21,11 @@ def simulated(exe, folder, name, words):
 
 def points_of(scan):
     with open(scan, "rb") as f:
-        for line in iter(f.readline, b"end_header\n"):
-            if line.startswith(b"element vertex"):
-                return int(line.split()[2])
-    raise ValueError(f"{scan}: no vertices")
+        return read_header(f)[1]
 
 
 def first_of(scene, count):
-    """A folder of links to the first scans, with their truth."""
-    truth = json.loads((scene / "truth.json").read_text(encoding="utf-8"))
-    truth.pop("overlap", None)
-    truth["scans"] = truth["scans"][:count]
-    folder = scene.parent / f"{scene.name}-{count}"
-    folder.mkdir(exist_ok=True)
-    for scan in truth["scans"]:
-        link = folder / scan["file"]
-        if not link.exists():
-            link.symlink_to((scene / scan["file"]).resolve())
-    (folder / "truth.json").write_text(json.dumps(truth), encoding="utf-8")
-    return folder
+    return first_scans(scene, count, scene.parent / f"{scene.name}-{count}")
 
 
 def row_of(exe, scene, what, value, threads):

@@ -3,7 +3,7 @@
 import argparse
 import re
 
-from benchmark.spent import OPEN3D_PYTHON, forget_peak, run, say
+from benchmark.spent import OPEN3D_PYTHON, run, say
 from compare_registration import METHODS, row_of
 
 HEADER = ("scene", "program", "ok", "flagged", "WRONG", "scans", "processor time [s]", "times ours", "wall time [s]", "memory [MB]")
@@ -27,7 +27,6 @@ def measure(folder, exe, pcl_multiway, scenes, cpu_limit_s):
     for scene in [*simulated(exe, folder), *scenes]:
         ours_s = None
         for method in METHODS:
-            forget_peak()
             _, _, ok, flagged, wrong, cpu_s, _, wall_s, memory_mb, note = row_of(scene, method, options)
             right, scans = map(int, re.fullmatch(r"(\d+)/(\d+)", ok).groups())
             ours_s = ours_s or float(cpu_s)

@@ -5,7 +5,7 @@ import shutil
 import numpy as np
 
 from benchmark.spent import json_of, run, say
-from ply import read_points
+from ply import header_of_points, read_points
 from score_poses import score_poses
 
 HEADER = ("what", "points", "right", "scans", "processor time [s]", "wall time [s]", "memory [MB]")
@@ -16,10 +16,8 @@ THREADS = 2
 
 def write_dense(path, points, count, rng):
     """So many points, each a copy of one of `points` moved by noise."""
-    header = ["ply", "format binary_little_endian 1.0", f"element vertex {count}",
-              *(f"property float {axis}" for axis in "xyz"), "end_header"]
     with open(path, "wb") as f:
-        f.write(("\n".join(header) + "\n").encode())
+        f.write(header_of_points(count, "float"))
         for begin in range(0, count, 1_000_000):
             size = min(1_000_000, count - begin)
             chosen = points[np.arange(begin, begin + size) * len(points) // count]

@@ -73,13 +73,9 @@ def write_provenance(folder, exe, extent, conventional_exe=None):
 def record_tables(folder, names, found):
     """Where each table comes from: its command, commit and programs, table by table, for a folder holds those of several
     runs. @param found  what write_provenance() gave"""
-    path = folder / "provenance.json"
-    whole = json.loads(path.read_text(encoding="utf-8"))
     keys = ("command", "commit", "uncommitted_changes", "program", "program_of_icp_and_features", "pcl", "python", "numpy",
             "extent", "seeds")
-    for name in names:
-        whole["tables"][name] = {key: found[key] for key in keys}
-    path.write_text(json.dumps(whole, indent=1, sort_keys=False) + "\n", encoding="utf-8")
+    add_tables(folder, {name: {key: found[key] for key in keys} for name in names})
 
 
 def origin(exe):
