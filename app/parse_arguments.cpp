@@ -30,7 +30,8 @@ po::error unknown_option_error(const po::unknown_option& error, const po::option
 }
 
 void refuse_placeholders(const std::string& text, const std::string& where) {
-  for (const char* const placeholder : {"%original_token%", "%canonical_option%", "%option%", "%prefix%", "%value%"}) {
+  for (const char* const placeholder :
+       {"%original_token%", "%canonical_option%", "%option%", "%prefix%", "%value%", "%invalid_line%"}) {
     if (text.find(placeholder) == std::string::npos) continue;
     throw InvalidOptions(where + " holds " + placeholder + ", which no option and no name may; write it otherwise");
   }

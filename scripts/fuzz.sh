@@ -7,7 +7,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 usage() {
   cat <<'TEXT'
 Usage: fuzz.sh SECONDS [TARGET...]
-  SECONDS  for each target
+  SECONDS  for each target; as many run side by side as there are processors
   TARGET   ply, las, pcd, e57, ptx, pts, xyz, csv, kitti, nuscenes, gzip, poses, truth, control, positions,
            priors, config; all of them by default
 Needs clang (install_dependencies.sh --checks) and builds build/fuzz. Files found interesting are kept in
@@ -54,27 +54,40 @@ add_others() {
 
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-failures=0
-summary=()
+
+# run NAME: leaves its exit status in the work folder.
+run() {
+  local name=$1 status=0
+  mkdir -p "$work/$name"
+  # No single allocation beyond 512 MiB: a file of some kilobytes has no reason to ask for one. Leaks are looked for at
+  # the end only: readers remember each file, which would start a search after every one.
+  TMPDIR=$work/$name "$build/tests/fuzz/fuzz_$name" -max_total_time="$seconds" -timeout=20 -rss_limit_mb=2048 \
+    -malloc_limit_mb=512 -max_len=65536 -detect_leaks=0 -print_final_stats=1 -artifact_prefix="$build/crashes/$name-" \
+    "$build/corpus/$name" "$build/seeds/$name" >"$build/logs/$name.log" 2>&1 || status=$?
+  echo "$status" >"$work/$name.status"
+}
+
 for target in "${targets[@]}"; do
   name=${target#fuzz_}
   mkdir -p "$build/corpus/$name" "$build/seeds/$name"
   add_others "$name"
+  while (($(jobs -rp | wc -l) >= $(nproc))); do wait -n; done
+  run "$name" &
+done
+wait
+
+failures=0
+summary=()
+for target in "${targets[@]}"; do
+  name=${target#fuzz_}
   log=$build/logs/$name.log
-  status=0
-  # No single allocation beyond 512 MiB: a file of some kilobytes has no reason to ask for one. Leaks are looked for at
-  # the end only: readers remember each file, which would start a search after every one.
-  TMPDIR=$work "$build/tests/fuzz/$target" -max_total_time="$seconds" -timeout=20 -rss_limit_mb=2048 -malloc_limit_mb=512 \
-    -max_len=65536 -detect_leaks=0 -print_final_stats=1 -artifact_prefix="$build/crashes/$name-" \
-    "$build/corpus/$name" "$build/seeds/$name" >"$log" 2>&1 || status=$?
   executions=$(sed -n 's/^stat::number_of_executed_units: *//p' "$log")
   verdict=passed
-  if ((status != 0)); then
+  if (($(cat "$work/$name.status") != 0)); then
     verdict="BROKE ($log)"
     failures=$((failures + 1))
   fi
   summary+=("$(printf '%-10s %12s  %s' "$name" "${executions:-?}" "$verdict")")
-  echo "${summary[-1]}"
 done
 
 echo

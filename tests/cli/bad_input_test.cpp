@@ -112,6 +112,8 @@ TEST_F(BadInput, IsAWordThatMessagesReplace) {
   }
   folder_.write("options.ini", "seeds%original_token% = 1\n");
   expect_bad({"a.xyz", "b.xyz", "--config", "options.ini"}, 1, {"options.ini holds %original_token%"});
+  folder_.write("options.ini", "no option, but %invalid_line% and more\n");
+  expect_bad({"a.xyz", "b.xyz", "--config", "options.ini"}, 1, {"options.ini holds %invalid_line%"});
 }
 
 }  // namespace
