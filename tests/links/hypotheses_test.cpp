@@ -106,6 +106,19 @@ TEST_F(HypothesisSetTest, TheSecondBestIsOfClearlyDifferentPosesOfThePair) {
   EXPECT_EQ(of(0, 2)[0].second_best_ratio, 0) << "there is none";
 }
 
+// Along a corridor two scans agree most where both stand at one place, and see through one another's walls.
+TEST_F(HypothesisSetTest, WhatFreeSpaceVetoesIsNobodysSecondBest) {
+  LinkHypothesis vetoed = aside(0, 1, 9, 0.9);
+  vetoed.measurements.free_space = {2000, 200, 0, 0};
+  ASSERT_TRUE(vetoed.measurements.free_space.vetoes());
+  set_->add(0, 1, {aside(0, 1, 0, 0.6), vetoed});
+  set_->score();
+  for (const LinkHypothesis& h : of(0, 1)) {
+    const double own = h.measurements.evidence.consensus();
+    EXPECT_NEAR(h.second_best_ratio, own == 0.6 ? 0 : 0.6 / 0.9, 1e-12) << own;
+  }
+}
+
 TEST_F(HypothesisSetTest, WhatAgreesNowhereHasAnInfinitelyBetterSecond) {
   set_->add(0, 1, {aside(0, 1, 0, 0), aside(0, 1, 9, 0.4)});
   set_->add(0, 2, {aside(0, 2, 0, 0), aside(0, 2, 9, 0)});

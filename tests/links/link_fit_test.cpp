@@ -95,6 +95,17 @@ TEST_F(LinkFitTest, EachMethodsBestComesFirstWhateverLiesNearer) {
   EXPECT_NE(order[0].method, order[1].method);
 }
 
+// Points lie nearest where two scans of a corridor overlap most: that is not where they stood.
+TEST_F(LinkFitTest, SlidesAreInTheOrderOfTheirVotes) {
+  std::vector<PoseCandidate> slides;
+  for (int k = 0; k < 4; ++k) slides.push_back(candidate(testing::random_pose(5, rng_), 5 + k, CoarseMethod::kSlide));
+  slides.push_back(near_truth(4));
+  slides.back().method = CoarseMethod::kSlide;
+  const auto order = in_order_of_promise(s_.scans[0], s_.scans[1], slides);
+  ASSERT_EQ(order.size(), slides.size());
+  for (std::size_t k = 1; k < order.size(); ++k) EXPECT_LT(order[k].score, order[k - 1].score);
+}
+
 TEST_F(LinkFitTest, WithoutCandidatesNothingIsPromised) {
   EXPECT_TRUE(in_order_of_promise(s_.scans[0], s_.scans[1], {}).empty());
 }

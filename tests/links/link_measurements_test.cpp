@@ -76,7 +76,7 @@ TEST(LinkFeatures, AreBoundedWhateverWasMeasured) {
   for (const FreeSpaceEvidence& all :
        {FreeSpaceEvidence{100, 100, 100, 100}, FreeSpaceEvidence{1u << 30, 1u << 30, 1u << 30, 1u << 30},
         FreeSpaceEvidence{99, 99, 99, 99}, FreeSpaceEvidence{0, 0, 0, 0}}) {
-    m.free_space = all;
+    m.free_space = m.slid_space = all;
     expect_bounded(link_features(m, std::nullopt, usual_set()), "free space");
   }
 }
@@ -111,6 +111,7 @@ TEST(LinkFeatures, EachGrowsWithWhatItIsNamedAfter) {
       {"mean_left", [](M& m, double x) { m.evidence.left_after_slide[5] = x; }},
       {"left_across", [](M& m, double x) { m.evidence.left_across = x; }},
       {"violations", [](M& m, double x) { m.free_space.num_violating = static_cast<std::size_t>(100 * x); }},
+      {"held_by_space", [](M& m, double x) { m.slid_space.num_violating = static_cast<std::size_t>(200 * x); }},
       {"opposed", [](M& m, double x) { m.free_space.num_opposed = static_cast<std::size_t>(1000 * x); }},
   };
   for (const auto& [name, set] : measured) {
@@ -144,6 +145,20 @@ TEST(LinkFeatures, ThoseOfTheSearchAreOfItsMethodAlone) {
   EXPECT_GT(feature("second_best", of({CoarseMethod::kSlide, 2, 0})), feature("second_best", slide)) << "no other pose";
   EXPECT_LT(feature("second_best", of({CoarseMethod::kSlide, 2, 1.5})), 0) << "a better one";
   EXPECT_EQ(feature("second_best", of({CoarseMethod::kImplied, 1, 0})), 0) << "nobody looked for another";
+}
+
+TEST(LinkFeatures, FreeSpaceHoldsWhatSeesThroughMoreAfterASlide) {
+  LinkMeasurements m = usual_link();
+  const auto held = [&](std::size_t num_points, std::size_t before, std::size_t slid_points, std::size_t after) {
+    m.free_space = {num_points, before, 0, 0};
+    m.slid_space = {slid_points, after, 0, 0};
+    return feature("held_by_space", link_features(m, std::nullopt, usual_set()));
+  };
+  EXPECT_NEAR(held(2000, 3, 1600, 100), std::log((0.004 + 90.0 / 1600) / (0.004 + 6.0 / 2000)), 1e-12);
+  EXPECT_EQ(held(2000, 100, 1600, 80), 0) << "as much here";
+  EXPECT_EQ(held(99, 0, 1600, 100), 0) << "too few points";
+  EXPECT_EQ(held(2000, 3, 99, 99), 0) << "too few points after it";
+  EXPECT_LT(held(100, 0, 1600, 100), held(2000, 0, 1600, 100)) << "none of a few points is chance";
 }
 
 // Free space that shows nothing speaks against scans that see space, and says nothing of others.

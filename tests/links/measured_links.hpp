@@ -25,6 +25,7 @@ inline LinkMeasurements usual_link() {
   m.other_overlap = 0.5;
   m.other_inlier_share = 0.75;
   m.free_space = {2000, 4, 1500, 30};
+  m.slid_space = {3000, 90, 0, 0};
   m.sighted = true;
   return m;
 }
@@ -41,6 +42,7 @@ inline LinkMeasurements terrible_link() {
   m.other_overlap = 0.1;
   m.other_inlier_share = 0.1;
   m.free_space = {2000, 600, 500, 300};
+  m.slid_space = {3000, 900, 0, 0};
   return m;
 }
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <unordered_map>
 
-#include "core/decompositions.hpp"
+#include "tcm_icp/coarse/slide_axes.hpp"
 #include "tcm_icp/core/voxel_sampler.hpp"
 
 namespace tcm_icp {
@@ -18,33 +18,29 @@ constexpr std::int64_t kDistinct = 4;     // voxels between two candidates
 constexpr std::int64_t kSame = 2;         // voxels from the pose that is known
 constexpr double kMinScore = 5, kLeastVotes = 4;
 
-// Columns: the direction of the slide, then two across it.
-Eigen::Matrix3d slide_axes(const Points& target_normals, const Points& source_normals) {
-  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
-  for (const Points* normals : {&target_normals, &source_normals}) {
-    Eigen::Matrix3d of_scan = Eigen::Matrix3d::Zero();
-    for (const auto& n : *normals) of_scan += n * n.transpose();
-    if (of_scan.trace() > 0) sum += of_scan / of_scan.trace();
-  }
-  return symmetric_eigen3(sum).vectors;
-}
-
 // What lies across the slide.
 struct Across {
   double along;     ///< [voxels]
-  VoxelKey column;  ///< x: the side that was seen
+  VoxelKey column;  ///< x: what it is, and the side that was seen
 };
 
-std::vector<Across> across(const Points& points, const Points& normals, const Eigen::Matrix3d& axes, double voxel_m,
-                           NormalSides sides) {
-  std::vector<Across> out;
+constexpr double kBorder = 2;  // columns of borders are not those of surfaces
+
+void add_across(const Points& points, const Points& directions, const Eigen::Isometry3d& T, const Eigen::Matrix3d& axes,
+                double voxel_m, double kind, bool sided, std::vector<Across>& out) {
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const double cosine = normals[i].dot(axes.col(0));
+    const double cosine = (T.linear() * directions[i]).dot(axes.col(0));
     if (std::abs(cosine) < kMinAcrossCosine) continue;
-    const Eigen::Vector3d p = axes.transpose() * points[i] / voxel_m;
-    const double side = sides == NormalSides::kSeen && cosine < 0 ? 1 : 0;
-    out.push_back({p.x(), voxel_key({side, p.y(), p.z()}, 1)});
+    const Eigen::Vector3d p = axes.transpose() * (T * points[i]) / voxel_m;
+    out.push_back({p.x(), voxel_key({kind + (sided && cosine < 0 ? 1 : 0), p.y(), p.z()}, 1)});
   }
+}
+
+std::vector<Across> across(const SlideMarks& marks, const Eigen::Isometry3d& T, const Eigen::Matrix3d& axes,
+                           double voxel_m, bool sided) {
+  std::vector<Across> out;
+  add_across(marks.surfaces.points, marks.surfaces.normals, T, axes, voxel_m, 0, sided, out);
+  add_across(marks.borders.points, marks.borders.normals, T, axes, voxel_m, kBorder, true, out);
   return out;
 }
 
@@ -89,15 +85,15 @@ std::vector<double> stand_out(const std::vector<double>& votes) {
 
 }  // namespace
 
-std::vector<PoseCandidate> slide_candidates(const Cloud& target, const Cloud& source,
-                                            const Eigen::Isometry3d& T_target_source, double voxel_m, NormalSides sides,
+std::vector<PoseCandidate> slide_candidates(const SlideMarks& target, const SlideMarks& source,
+                                            const Eigen::Isometry3d& T_target_source, double voxel_m,
                                             std::size_t max_candidates) {
-  Points points, normals;
-  for (const auto& p : source.points) points.push_back(T_target_source * p);
-  for (const auto& n : source.normals) normals.push_back(T_target_source.linear() * n);
-  const Eigen::Matrix3d axes = slide_axes(target.normals, normals);
-  const std::vector<double> scores = stand_out(count_votes(across(target.points, target.normals, axes, voxel_m, sides),
-                                                           across(points, normals, axes, voxel_m, sides)));
+  const Eigen::Matrix3d axes =
+      slide_axes(target.surfaces.normals, source.surfaces.normals, T_target_source.linear());
+  const bool sided = target.sides == NormalSides::kSeen && source.sides == NormalSides::kSeen;
+  const std::vector<double> scores =
+      stand_out(count_votes(across(target, Eigen::Isometry3d::Identity(), axes, voxel_m, sided),
+                            across(source, T_target_source, axes, voxel_m, sided)));
 
   std::vector<std::int64_t> lengths;
   for (std::int64_t length = -kLongest; length <= kLongest; ++length) {

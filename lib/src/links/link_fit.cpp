@@ -25,10 +25,24 @@ bool hopeless(const PreparedScan& target, const PreparedScan& source, const Pose
   return evidence.tells() && evidence.violation_share() > most;
 }
 
+// Along a corridor points lie nearest where both scans overlap most. Where both were taken free space tells far better
+// how far apart that was, and then the votes.
+std::vector<PoseCandidate> slides_in_order(const PreparedScan& target, const PreparedScan& source,
+                                           std::vector<PoseCandidate> slides) {
+  std::stable_sort(slides.begin(), slides.end(), [](const auto& a, const auto& b) { return a.score > b.score; });
+  std::stable_partition(slides.begin(), slides.end(), [&](const PoseCandidate& c) {
+    return !violations(target, source, c.T_target_source).vetoes();
+  });
+  return slides;
+}
+
 }  // namespace
 
 std::vector<PoseCandidate> in_order_of_promise(const PreparedScan& target, const PreparedScan& source,
                                                const std::vector<PoseCandidate>& candidates) {
+  if (!candidates.empty() && candidates.front().method == CoarseMethod::kSlide) {
+    return slides_in_order(target, source, candidates);
+  }
   // Points alone would not do: in a forest something is near everywhere.
   const Cloud sample = even_sample(source.coarse_sample, kScreenPoints);
   const double voxel_m = target.pyramid.level(0).voxel_size_m;

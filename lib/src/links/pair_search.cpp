@@ -16,6 +16,7 @@
 #include "tcm_icp/coarse/slide_search.hpp"
 #include "tcm_icp/core/parallel.hpp"
 #include "tcm_icp/graph/correspondence_measure.hpp"
+#include "tcm_icp/visibility/borders.hpp"
 
 namespace tcm_icp {
 namespace {
@@ -36,6 +37,7 @@ constexpr std::size_t kMostPartners = 24;
 // Bounds the cost in large sets. Fewer would not do: what tells a place from its twin is that all pairs there are poor.
 constexpr std::size_t kImpliedPartners = 12;
 constexpr std::size_t kSlidesOfPose = 8;  // from one pose
+constexpr double kSameSlide = 2;          // [coarse voxels]
 // Of a pair and method, beside those that free space vetoes; a clear hypothesis ends them.
 constexpr int kMaxFits = 3;
 // The pyramid's level at which poses are asked for overlap, and the distance of what overlaps, in its voxels.
@@ -45,9 +47,23 @@ constexpr double kOverlapInVoxels = 2;
 // Each of the two may be off the vertical.
 bool tilts(const Eigen::Isometry3d& T) { return T.linear()(2, 2) < std::cos(2 * kMaxLevelTilt_deg * EIGEN_PI / 180); }
 
-Cloud surfaces(const PreparedScan& scan, NormalSides sides) {
-  const Cloud& cloud = scan.pyramid.level(0).cloud;
-  return sides == NormalSides::kSeen ? Cloud{cloud.points, scan.sight.facing} : cloud;
+SlideMarks slide_marks(const PreparedScan& scan) {
+  const PyramidLevel& surfaces = scan.pyramid.level(0);
+  if (!scan.sight.knows_sides()) return {surfaces.cloud, {}, NormalSides::kUnknown};
+  return {{surfaces.cloud.points, scan.sight.facing}, find_borders({surfaces, scan.sight}), NormalSides::kSeen};
+}
+
+// The best voted for of those within a distance of one another, in this order: many poses slide to one.
+std::vector<PoseCandidate> distinct(std::vector<PoseCandidate> slides, double distance_m, const PointMoments& moments) {
+  std::stable_sort(slides.begin(), slides.end(), [](const auto& a, const auto& b) { return a.score > b.score; });
+  std::vector<PoseCandidate> out;
+  for (const PoseCandidate& slide : slides) {
+    const bool known = std::any_of(out.begin(), out.end(), [&](const PoseCandidate& other) {
+      return rms_displacement(other.T_target_source.inverse() * slide.T_target_source, moments) < distance_m;
+    });
+    if (!known) out.push_back(slide);
+  }
+  return out;
 }
 
 // Those that overlap at all and are, for either scan and in their configuration, among the `most_partners` best;
@@ -244,16 +260,14 @@ struct PairSearch::Impl {
 
   static std::vector<PoseCandidate> slides_of(const PreparedScan& a, const PreparedScan& b,
                                               const std::vector<Eigen::Isometry3d>& poses) {
-    const bool seen = a.sight.knows_sides() && b.sight.knows_sides();
-    const NormalSides sides = seen ? NormalSides::kSeen : NormalSides::kUnknown;
-    const Cloud target = surfaces(a, sides), source = surfaces(b, sides);
+    const SlideMarks target = slide_marks(a), source = slide_marks(b);
     const double voxel_m = a.pyramid.level(0).voxel_size_m;
     std::vector<PoseCandidate> out;
     for (const Eigen::Isometry3d& T : poses) {
-      const auto slid = slide_candidates(target, source, T, voxel_m, sides, kSlidesOfPose);
+      const auto slid = slide_candidates(target, source, T, voxel_m, kSlidesOfPose);
       out.insert(out.end(), slid.begin(), slid.end());
     }
-    return out;
+    return distinct(std::move(out), kSameSlide * voxel_m, b.moments);
   }
 
   /// A search that is kept, where anything is.

@@ -32,8 +32,8 @@ void transfer(Record& record, T& value) {
 
 template <typename Record, MaybeConst<LinkMeasurements> T>
 void transfer(Record& record, T& value) {
-  auto& [evidence, other_overlap, other_inlier_share, free_space, sighted] = value;
-  record(evidence, other_overlap, other_inlier_share, free_space, sighted);
+  auto& [evidence, other_overlap, other_inlier_share, free_space, slid_space, sighted] = value;
+  record(evidence, other_overlap, other_inlier_share, free_space, slid_space, sighted);
 }
 
 template <typename Record, MaybeConst<VerticalOptions> T>

@@ -51,9 +51,11 @@ class Settling {
   }
 
   SettledComponent run() {
-    while (true) {
+    for (bool is_whole = true;; is_whole = false) {
       adjust();
-      adjust_likelier();
+      // Where scans have left, what they said of the others is not in the likelihood any more: a place that is likelier
+      // now was less likely by all evidence. It counts against the lead.
+      if (is_whole) adjust_likelier();
       measure();
       const std::vector<std::size_t> dropped = decide_members();
       context_.debug(std::to_string(dropped.size()) + " of " + std::to_string(out_.component.size()) +

@@ -4,15 +4,13 @@
 #include <cmath>
 
 #include "core/acceptance.hpp"
+#include "visibility/seen_through.hpp"
 
 namespace tcm_icp {
 namespace {
 
 constexpr std::size_t kPoints = 3000;
-// Clearly before a surface: a coarse voxel, and what the viewpoint and a bin's width leave open.
-constexpr double kClearOfVoxel = 1, kClearOfRange = 0.03;
 constexpr double kMinIncidenceCosine = 0.2;  // nearly along a surface, a bin holds any range
-constexpr int kMinFilled = 4;  // two lines of a scanner at least: what is seen must be a surface, not a leaf
 constexpr double kMinNormalCosine = 0.7;
 constexpr double kSamePlane = 0.25;  // [voxels] thin things have both sides within a voxel, but not at one place
 
@@ -33,25 +31,20 @@ Tally look(const RangeImage& image, const Cloud& points, double voxel_m) {
     const Eigen::Vector3d ray = points.points[i] - image.place();
     const double range = ray.norm();
     if (std::abs(points.normals[i].dot(ray)) <= kMinIncidenceCosine * range) continue;
-    const RangeImage::Surroundings seen = image.about(ray / range);
-    if (seen.num_filled < kMinFilled) continue;
-    const double clear_m = kClearOfVoxel * voxel_m + kClearOfRange * range;
-    if (range < seen.least_m - clear_m) {
-      ++tally.before;
-    } else if (range <= seen.greatest_m + clear_m) {
-      ++tally.at;
-    }
+    const Seen seen = seen_at(image, points.points[i], voxel_m);
+    tally.before += seen == Seen::kThrough ? 1 : 0;
+    tally.at += seen == Seen::kAt ? 1 : 0;
   }
   return tally;
 }
 
 // Every so-manieth, so that both directions cost the same for any scan.
-std::vector<std::size_t> pick(const Cloud& cloud) {
+std::vector<std::size_t> pick(const Cloud& cloud, std::size_t max_points) {
   std::vector<std::size_t> usable, out;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     if (!cloud.normals[i].isZero()) usable.push_back(i);
   }
-  const std::size_t count = std::min(kPoints, usable.size());
+  const std::size_t count = std::min(max_points, usable.size());
   for (std::size_t i = 0; i < count; ++i) out.push_back(usable[i * usable.size() / count]);
   return out;
 }
@@ -111,17 +104,18 @@ FreeSpaceEvidence& FreeSpaceEvidence::operator+=(const FreeSpaceEvidence& other)
 }
 
 FreeSpaceEvidence measure_free_space(const SightedScan& a, const SightedScan& b, const Eigen::Isometry3d& T_a_b) {
-  FreeSpaceEvidence evidence = measure_violations(a, b, T_a_b);
+  FreeSpaceEvidence evidence = measure_violations(a, b, T_a_b, kPoints);
   if (!a.sight.knows_sides() || !b.sight.knows_sides()) return evidence;
-  compare_sides(a, b, pick(b.surfaces.cloud), T_a_b, evidence);
-  compare_sides(b, a, pick(a.surfaces.cloud), T_a_b.inverse(), evidence);
+  compare_sides(a, b, pick(b.surfaces.cloud, kPoints), T_a_b, evidence);
+  compare_sides(b, a, pick(a.surfaces.cloud, kPoints), T_a_b.inverse(), evidence);
   return evidence;
 }
 
-FreeSpaceEvidence measure_violations(const SightedScan& a, const SightedScan& b, const Eigen::Isometry3d& T_a_b) {
+FreeSpaceEvidence measure_violations(const SightedScan& a, const SightedScan& b, const Eigen::Isometry3d& T_a_b,
+                                     std::size_t max_points) {
   FreeSpaceEvidence evidence;
-  if (a.sight.sees_space()) look_from(a, b, pick(b.surfaces.cloud), T_a_b, evidence);
-  if (b.sight.sees_space()) look_from(b, a, pick(a.surfaces.cloud), T_a_b.inverse(), evidence);
+  if (a.sight.sees_space()) look_from(a, b, pick(b.surfaces.cloud, max_points), T_a_b, evidence);
+  if (b.sight.sees_space()) look_from(b, a, pick(a.surfaces.cloud, max_points), T_a_b.inverse(), evidence);
   return evidence;
 }
 

@@ -18,6 +18,7 @@ struct LinkMeasurements {
   double other_overlap = 0;       ///< of the other direction
   double other_inlier_share = 0;  ///< of the other direction
   FreeSpaceEvidence free_space;   ///< both directions together
+  FreeSpaceEvidence slid_space;   ///< slid along what holds the pair least, the way that less is seen through; no sides
   bool sighted = false;           ///< both scans see space: free space that tells nothing means that they share none
 };
 
@@ -42,7 +43,7 @@ struct SetReference {
 };
 
 /// Names of the numbers below, in their order.
-inline constexpr std::array<std::string_view, 22> kLinkFeatureNames{"log_overlap",
+inline constexpr std::array<std::string_view, 23> kLinkFeatureNames{"log_overlap",
                                                                     "log_other_overlap",
                                                                     "log_inlier_share",
                                                                     "log_other_inlier_share",
@@ -57,6 +58,7 @@ inline constexpr std::array<std::string_view, 22> kLinkFeatureNames{"log_overlap
                                                                     "violations",
                                                                     "opposed",
                                                                     "space_unseen",
+                                                                    "held_by_space",
                                                                     "blind",
                                                                     "second_best",
                                                                     "height_map_margin",
@@ -64,8 +66,8 @@ inline constexpr std::array<std::string_view, 22> kLinkFeatureNames{"log_overlap
                                                                     "feature_margin",
                                                                     "slide",
                                                                     "implied"};
-inline constexpr std::size_t kBlind = 15;            ///< place of "blind": neither model judges what the other does
-inline constexpr std::size_t kNumPoseFeatures = 16;  ///< the others are of the search
+inline constexpr std::size_t kBlind = 16;            ///< place of "blind": neither model judges what the other does
+inline constexpr std::size_t kNumPoseFeatures = 17;  ///< the others are of the search
 using LinkFeatures = std::array<double, kLinkFeatureNames.size()>;
 
 /// Finite, without a unit, each within bounds beyond which it says no more. Search features are 0 without a search.

@@ -42,6 +42,8 @@ struct SightedScan {
 FreeSpaceEvidence measure_free_space(const SightedScan& a, const SightedScan& b, const Eigen::Isometry3d& T_a_b);
 
 /// The same violations without the matches, whose counts stay 0: no queries, less than half the time.
-FreeSpaceEvidence measure_violations(const SightedScan& a, const SightedScan& b, const Eigen::Isometry3d& T_a_b);
+/// @param max_points  of either scan
+FreeSpaceEvidence measure_violations(const SightedScan& a, const SightedScan& b, const Eigen::Isometry3d& T_a_b,
+                                     std::size_t max_points = 3000);
 
 }  // namespace tcm_icp
