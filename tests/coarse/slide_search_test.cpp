@@ -77,10 +77,10 @@ TEST(SlideSearch, IsTheSameInAnotherUnitAndFrame) {
   const Cloud target = corridor(0, 14, kPiers), source = corridor(6, 20, kPiers);
   const Isometry3d start(Eigen::Translation3d(-6, 0, 0));
   const auto plain = slide_candidates(marks(target), marks(source), start, kVoxel_m, 1);
-  const auto scaled = slide_candidates(marks(testing::scaled_cloud(target, 1000)), marks(testing::scaled_cloud(source, 1000)),
-                                       testing::scaled_pose(start, 1000), 1000 * kVoxel_m, 1);
-  const auto turned =
-      slide_candidates(marks(transformed(target, turn)), marks(source), turn * start, kVoxel_m, 1);
+  const auto scaled =
+      slide_candidates(marks(testing::scaled_cloud(target, 1000)), marks(testing::scaled_cloud(source, 1000)),
+                       testing::scaled_pose(start, 1000), 1000 * kVoxel_m, 1);
+  const auto turned = slide_candidates(marks(transformed(target, turn)), marks(source), turn * start, kVoxel_m, 1);
   ASSERT_EQ(plain.size(), 1u);
   ASSERT_EQ(scaled.size(), 1u);
   ASSERT_EQ(turned.size(), 1u);
@@ -103,7 +103,8 @@ TEST(SlideSearch, TheFacesOfAWallAreNotMistakenForOneAnotherWhereTheirSidesAreKn
   const auto mistaken = slide_candidates(marks(before), marks(behind), start, kVoxel_m, 1);
   ASSERT_FALSE(mistaken.empty()) << "the faces of all piers agree 0.3 m off";
   EXPECT_NEAR(std::abs(mistaken[0].T_target_source.translation().x()), 0.3, kVoxel_m);
-  EXPECT_TRUE(slide_candidates(marks(before, NormalSides::kSeen), marks(behind, NormalSides::kSeen), start, kVoxel_m, 1).empty());
+  EXPECT_TRUE(slide_candidates(marks(before, NormalSides::kSeen), marks(behind, NormalSides::kSeen), start, kVoxel_m, 1)
+                  .empty());
 }
 
 // Openings in the wall at y = 1, each as wide as the others: no surface lies across the corridor.
@@ -150,8 +151,7 @@ TEST(SlideSearch, OpenDoorsDoNotLeadOffTheCorridor) {
 
 TEST(SlideSearch, FindsNothingWhereNothingTells) {
   const Isometry3d start(Eigen::Translation3d(-6, 0, 0));
-  EXPECT_TRUE(
-      slide_candidates(marks(corridor(0, 14, {})), marks(corridor(6, 20, {})), start, kVoxel_m, 8).empty());
+  EXPECT_TRUE(slide_candidates(marks(corridor(0, 14, {})), marks(corridor(6, 20, {})), start, kVoxel_m, 8).empty());
   EXPECT_TRUE(slide_candidates({}, {}, start, kVoxel_m, 8).empty());
   EXPECT_TRUE(slide_candidates(marks(corridor(0, 9, kPiers)), {}, start, kVoxel_m, 8).empty());
   Cloud no_normals = corridor(0, 14, kPiers);

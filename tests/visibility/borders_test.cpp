@@ -27,9 +27,9 @@ testing::BoxRoom corridor_room(bool with_door) {
 }
 
 struct SeenFromTheCorridor {
-  explicit SeenFromTheCorridor(const testing::BoxRoom& room, const Isometry3d& T = Isometry3d::Identity(), bool knows_where = true)
-      : cloud(transformed(testing::scan_room(room, kFrom, 60'000), T)),
-        level{0.1, cloud, NeighborIndex(cloud.points)} {
+  explicit SeenFromTheCorridor(const testing::BoxRoom& room, const Isometry3d& T = Isometry3d::Identity(),
+                               bool knows_where = true)
+      : cloud(transformed(testing::scan_room(room, kFrom, 60'000), T)), level{0.1, cloud, NeighborIndex(cloud.points)} {
     if (knows_where) sight = make_sight(Viewpoint{T * kFrom, 0, 0, 5, {}}, cloud.points, cloud);
   }
   Cloud borders() const { return find_borders({level, sight}); }
@@ -65,7 +65,8 @@ TEST(Borders, AWallWithoutADoorHasNone) {
 TEST(Borders, MoveWithTheScan) {
   Rng rng = make_stream(1, "borders_test");
   const Isometry3d T = testing::random_pose(30, rng);
-  const Cloud plain = SeenFromTheCorridor(corridor_room(true)).borders(), moved = SeenFromTheCorridor(corridor_room(true), T).borders();
+  const Cloud plain = SeenFromTheCorridor(corridor_room(true)).borders(),
+              moved = SeenFromTheCorridor(corridor_room(true), T).borders();
   const NeighborIndex index(transformed(plain, T).points);
   std::size_t known = 0;
   for (const Vector3d& p : moved.points) known += index.nearest_within(p, 1e-6).found() ? 1 : 0;

@@ -88,8 +88,7 @@ std::vector<double> stand_out(const std::vector<double>& votes) {
 std::vector<PoseCandidate> slide_candidates(const SlideMarks& target, const SlideMarks& source,
                                             const Eigen::Isometry3d& T_target_source, double voxel_m,
                                             std::size_t max_candidates) {
-  const Eigen::Matrix3d axes =
-      slide_axes(target.surfaces.normals, source.surfaces.normals, T_target_source.linear());
+  const Eigen::Matrix3d axes = slide_axes(target.surfaces.normals, source.surfaces.normals, T_target_source.linear());
   const bool sided = target.sides == NormalSides::kSeen && source.sides == NormalSides::kSeen;
   const std::vector<double> scores =
       stand_out(count_votes(across(target, Eigen::Isometry3d::Identity(), axes, voxel_m, sided),

@@ -50,8 +50,8 @@ inline double violations(const FreeSpaceEvidence& e) {
   return e.tells() ? beyond(e.num_violating, e.num_points, kUsualViolations) : 0;
 }
 
-/// Logarithm of how many times more is seen through after a slide, at least, than here, at most: a standard deviation of
-/// the counts is left to chance. 0 where as much is, or few points tell.
+/// Logarithm of how many times more is seen through after a slide, at least, than here, at most: a standard deviation
+/// of the counts is left to chance. 0 where as much is, or few points tell.
 inline double held_by_space(const FreeSpaceEvidence& here, const FreeSpaceEvidence& slid) {
   if (!here.tells() || !slid.tells()) return 0;
   const auto after = static_cast<double>(slid.num_violating), before = static_cast<double>(here.num_violating + 1);

@@ -13,8 +13,8 @@ namespace {
 
 constexpr double kSameConstant = 0.1;  // log-odds; less moves no scan
 
-// Consensus of the best clearly different pose of the pair, that free space does not veto, by this one's. Poses are looked at by the same points, so
-// that this tells them apart better than where they came from.
+// Consensus of the best clearly different pose of the pair, that free space does not veto, by this one's. Poses are
+// looked at by the same points, so that this tells them apart better than where they came from.
 double second_best_ratio(const LinkHypothesis& h, const std::vector<LinkHypothesis>& all, const PointMoments& moments_b,
                          double same_m) {
   const double own = h.measurements.evidence.consensus();

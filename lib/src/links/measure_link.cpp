@@ -42,8 +42,12 @@ LinkMeasurements measure_link(const PreparedScan& a, const PreparedScan& b, cons
   const AlignmentEvidence b_in_a = one_way(a, b, T_a_b, false), a_in_b = one_way(b, a, T_b_a, false);
   const bool first = b_in_a.overlap >= a_in_b.overlap;
   const AlignmentEvidence& other = first ? a_in_b : b_in_a;
-  return {first ? one_way(a, b, T_a_b, true) : one_way(b, a, T_b_a, true), other.overlap, other.inlier_share,
-          free_space(a, b, T_a_b), slid_space(a, b, T_a_b), a.sight.sees_space() && b.sight.sees_space()};
+  return {first ? one_way(a, b, T_a_b, true) : one_way(b, a, T_b_a, true),
+          other.overlap,
+          other.inlier_share,
+          free_space(a, b, T_a_b),
+          slid_space(a, b, T_a_b),
+          a.sight.sees_space() && b.sight.sees_space()};
 }
 
 }  // namespace tcm_icp

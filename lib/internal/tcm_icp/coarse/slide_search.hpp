@@ -22,8 +22,8 @@ struct SlideMarks {
 
 /// Poses that differ from a given one by a slide along the direction in which the surfaces of both scans hold it least.
 /// What looks the same all along a corridor fits best where two scans overlap most: with both scanners at one place,
-/// not where they stood. Only surfaces across the direction tell, and borders, as of doors, that it crosses: each one of
-/// the target and each one of the source that a slide would bring together vote for the length of that slide, and
+/// not where they stood. Only surfaces across the direction tell, and borders, as of doors, that it crosses: each one
+/// of the target and each one of the source that a slide would bring together vote for the length of that slide, and
 /// lengths with more votes than those about them are candidates.
 ///
 /// @param target           in its own frame
