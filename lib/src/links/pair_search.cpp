@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <memory>
+#include <mutex>
 #include <numeric>
 #include <optional>
 #include <set>
@@ -47,10 +49,10 @@ constexpr double kOverlapInVoxels = 2;
 // Each of the two may be off the vertical.
 bool tilts(const Eigen::Isometry3d& T) { return T.linear()(2, 2) < std::cos(2 * kMaxLevelTilt_deg * EIGEN_PI / 180); }
 
-SlideMarks slide_marks(const PreparedScan& scan) {
-  const PyramidLevel& surfaces = scan.pyramid.level(0);
-  if (!scan.sight.knows_sides()) return {surfaces.cloud, {}, NormalSides::kUnknown};
-  return {{surfaces.cloud.points, scan.sight.facing}, find_borders({surfaces, scan.sight}), NormalSides::kSeen};
+SlideMarks slide_marks(const PreparedScan& scan, const Cloud& borders) {
+  const Cloud& surfaces = scan.pyramid.level(0).cloud;
+  if (!scan.sight.knows_sides()) return {surfaces, borders, NormalSides::kUnknown};
+  return {{surfaces.points, scan.sight.facing}, borders, NormalSides::kSeen};
 }
 
 // The best voted for of those within a distance of one another, in this order: many poses slide to one.
@@ -97,7 +99,9 @@ struct PairSearch::Impl {
         kept(std::move(k)),
         steps(kept.store),
         height_maps(all, o.level, c, kept),
-        reach(all.size(), kFirstPartners) {}
+        reach(all.size(), kFirstPartners),
+        borders(all.size()),
+        found_borders(new std::once_flag[all.size()]) {}
 
   const std::vector<PreparedScan>& scans;
   const LinkSearchOptions& options;
@@ -105,8 +109,10 @@ struct PairSearch::Impl {
   const KeptSearches kept;
   const StepStore* steps;  // that of `kept`
   HeightMapSearch height_maps;
-  std::map<ScanPairs::value_type, Tried> tried;  // pairs that were
-  std::vector<std::size_t> reach;                // how many partners were asked for, of each scan
+  std::map<ScanPairs::value_type, Tried> tried;     // pairs that were
+  std::vector<std::size_t> reach;                   // how many partners were asked for, of each scan
+  std::vector<Cloud> borders;                       // once slides ask for them
+  std::unique_ptr<std::once_flag[]> found_borders;  // the same
   FeatureAlignmentOptions features;
   std::vector<DescribedScan> described;                                                   // once they are asked for
   std::optional<ScanWords> words;                                                         // the same
@@ -244,7 +250,7 @@ struct PairSearch::Impl {
 
   /// From all poses that the pair was fitted to: where one is right but for a slide, it is most often one that free
   /// space vetoes.
-  std::vector<std::vector<PoseCandidate>> by_slides(const ScanPairs& pairs) const {
+  std::vector<std::vector<PoseCandidate>> by_slides(const ScanPairs& pairs) {
     std::vector<std::vector<PoseCandidate>> out(pairs.size());
     parallel_for(context.num_threads, pairs.size(), [&](std::size_t begin, std::size_t end) {
       for (std::size_t k = begin; k < end; ++k) {
@@ -252,22 +258,28 @@ struct PairSearch::Impl {
         const auto known = fitted.find(pairs[k]);
         if (known == fitted.end()) continue;
         out[k] = once([&, a = a, b = b] { return slide_key(scans[a], scans[b], known->second); },
-                      [&, a = a, b = b] { return slides_of(scans[a], scans[b], known->second); });
+                      [&, a = a, b = b] { return slides_of(a, b, known->second); });
       }
     });
     return out;
   }
 
-  static std::vector<PoseCandidate> slides_of(const PreparedScan& a, const PreparedScan& b,
-                                              const std::vector<Eigen::Isometry3d>& poses) {
-    const SlideMarks target = slide_marks(a), source = slide_marks(b);
-    const double voxel_m = a.pyramid.level(0).voxel_size_m;
+  const Cloud& borders_of(std::size_t scan) {
+    std::call_once(found_borders[scan], [&] {
+      borders[scan] = find_borders({scans[scan].pyramid.level(0), scans[scan].sight});
+    });
+    return borders[scan];
+  }
+
+  std::vector<PoseCandidate> slides_of(std::size_t a, std::size_t b, const std::vector<Eigen::Isometry3d>& poses) {
+    const SlideMarks target = slide_marks(scans[a], borders_of(a)), source = slide_marks(scans[b], borders_of(b));
+    const double voxel_m = scans[a].pyramid.level(0).voxel_size_m;
     std::vector<PoseCandidate> out;
     for (const Eigen::Isometry3d& T : poses) {
       const auto slid = slide_candidates(target, source, T, voxel_m, kSlidesOfPose);
       out.insert(out.end(), slid.begin(), slid.end());
     }
-    return distinct(std::move(out), kSameSlide * voxel_m, b.moments);
+    return distinct(std::move(out), kSameSlide * voxel_m, scans[b].moments);
   }
 
   /// A search that is kept, where anything is.
