@@ -159,10 +159,6 @@ TEST(LinkFeatures, FreeSpaceHoldsWhatSeesThroughMoreAfterASlide) {
   EXPECT_EQ(held(99, 0, 1600, 100), 0) << "too few points";
   EXPECT_EQ(held(2000, 3, 99, 99), 0) << "too few points after it";
   EXPECT_LT(held(100, 0, 1600, 100), held(2000, 0, 1600, 100)) << "none of a few points is chance";
-  const auto blind = [&] { return feature("blind", link_features(m, std::nullopt, usual_set())); };
-  EXPECT_EQ(blind(), 0);
-  m.slid_space = {99, 99, 0, 0};
-  EXPECT_EQ(blind(), 1) << "unknown is not the same as not held";
 }
 
 // Free space that shows nothing speaks against scans that see space, and says nothing of others.

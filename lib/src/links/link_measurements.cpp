@@ -59,10 +59,7 @@ LinkFeatures link_features(const LinkMeasurements& m, const std::optional<Search
   f[13] = opposed(m.free_space);
   f[14] = !m.free_space.tells() && m.sighted ? 1 : 0;
   f[15] = held_by_space(m.free_space, m.slid_space);
-  // Where slides leave too few points, nobody knows whether free space holds the pose: then the rest has to say more,
-  // too.
-  const bool held_unknown = m.free_space.tells() && !m.slid_space.tells();
-  f[16] = held_unknown || (!m.free_space.tells() && !m.sighted) ? 1 : 0;
+  f[16] = !m.free_space.tells() && !m.sighted ? 1 : 0;
   if (!search) return f;
   const double margin = std::log(std::clamp(search->margin, 1 / kMostRatio, kMostRatio));
   f[17] = second_best(*search);
