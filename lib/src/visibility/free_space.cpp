@@ -9,7 +9,6 @@
 namespace tcm_icp {
 namespace {
 
-constexpr std::size_t kPoints = 3000;
 constexpr double kMinIncidenceCosine = 0.2;  // nearly along a surface, a bin holds any range
 constexpr double kMinNormalCosine = 0.7;
 constexpr double kSamePlane = 0.25;  // [voxels] thin things have both sides within a voxel, but not at one place
@@ -104,10 +103,10 @@ FreeSpaceEvidence& FreeSpaceEvidence::operator+=(const FreeSpaceEvidence& other)
 }
 
 FreeSpaceEvidence measure_free_space(const SightedScan& a, const SightedScan& b, const Eigen::Isometry3d& T_a_b) {
-  FreeSpaceEvidence evidence = measure_violations(a, b, T_a_b, kPoints);
+  FreeSpaceEvidence evidence = measure_violations(a, b, T_a_b);
   if (!a.sight.knows_sides() || !b.sight.knows_sides()) return evidence;
-  compare_sides(a, b, pick(b.surfaces.cloud, kPoints), T_a_b, evidence);
-  compare_sides(b, a, pick(a.surfaces.cloud, kPoints), T_a_b.inverse(), evidence);
+  compare_sides(a, b, pick(b.surfaces.cloud, kFreeSpaceSample), T_a_b, evidence);
+  compare_sides(b, a, pick(a.surfaces.cloud, kFreeSpaceSample), T_a_b.inverse(), evidence);
   return evidence;
 }
 

@@ -32,6 +32,8 @@ struct FreeSpaceEvidence {
   }
 };
 
+constexpr std::size_t kFreeSpaceSample = 3000;  ///< points of either scan that are looked at
+
 struct SightedScan {
   const PyramidLevel& surfaces;  ///< coarse voxel; `facing` is of these points
   const Sight& sight;
@@ -44,6 +46,6 @@ FreeSpaceEvidence measure_free_space(const SightedScan& a, const SightedScan& b,
 /// The same violations without the matches, whose counts stay 0: no queries, less than half the time.
 /// @param max_points  of either scan
 FreeSpaceEvidence measure_violations(const SightedScan& a, const SightedScan& b, const Eigen::Isometry3d& T_a_b,
-                                     std::size_t max_points = 3000);
+                                     std::size_t max_points = kFreeSpaceSample);
 
 }  // namespace tcm_icp
