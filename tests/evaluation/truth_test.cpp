@@ -68,6 +68,11 @@ TEST_F(TruthFile, ThatIsBrokenIsAnInputError) {
 
 TEST_F(TruthFile, WithNumbersOrRowsThatCannotBeIsAnInputError) {
   EXPECT_THROW(read(R"({"scans": [{"file": "a.ply", "pose": [[20e610]]}]})"), InputError) << "beyond double";
+  for (const std::string group : {"99999999999999999999999999", "-2147483649", "4294967296", "1.5", "null", "\"1\""}) {
+    EXPECT_THROW(read(R"({"scans": [{"file": "a.ply", "group": )" + group + R"(, "pose": )" + kQuarterTurn + "}]}"),
+                 InputError)
+        << group;
+  }
   const std::string scan = R"({"file": "a.ply", "pose": )" + kQuarterTurn + "}";
   std::string rows = "[[1";  // a matrix as wide as its first row and as high as all would take terabytes
   for (int i = 0; i < 400'000; ++i) rows += ",1";

@@ -33,7 +33,11 @@ Eigen::MatrixXd matrix(const Json& rows, const std::filesystem::path& path) {
 TrueScan true_scan(const Json& entry, const std::filesystem::path& path) {
   TrueScan scan;
   scan.file = entry.at("file").get<std::string>();
-  scan.group = entry.value("group", 0);
+  if (const auto group = entry.find("group"); group != entry.end()) {
+    const auto number = whole_number_of(*group);
+    if (!number) throw InputError(path, "scan " + scan.file, "has no usable 'group'", "give a whole number");
+    scan.group = *number;
+  }
   const Eigen::MatrixXd pose = matrix(entry.at("pose"), path);
   if (pose.rows() != 4 || pose.cols() != 4 || !is_rigid(pose, kRigidWithin)) {
     throw InputError(path, "scan " + scan.file, "pose is not a rigid 4x4 matrix", "give rotation and translation");

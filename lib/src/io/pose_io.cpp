@@ -1,11 +1,9 @@
 #include "tcm_icp/io/pose_io.hpp"
 
 #include <algorithm>
-#include <cstdint>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <string_view>
-#include <utility>
 
 #include "number_text.hpp"
 #include "pose_json.hpp"
@@ -71,14 +69,9 @@ T field_of(const nlohmann::json& entry, const char* key, const std::filesystem::
   }
 }
 
-// By hand: the library casts whatever number there is, and one beyond the range of int has no defined value.
 int whole_number(const nlohmann::json& entry, const char* key, const std::filesystem::path& path,
                  const std::string& place) {
-  const auto value = field_of<nlohmann::json>(entry, key, path, place);
-  const bool fits = value.is_number_unsigned()
-                        ? std::in_range<int>(value.get<std::uint64_t>())
-                        : value.is_number_integer() && std::in_range<int>(value.get<std::int64_t>());
-  if (fits) return value.get<int>();
+  if (const auto number = whole_number_of(field_of<nlohmann::json>(entry, key, path, place))) return *number;
   throw InputError(path, place, std::string("has no usable '") + key + "'", "give a poses.json that tcm-icp wrote");
 }
 

@@ -1,10 +1,12 @@
 #include "pose_json.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <system_error>
+#include <utility>
 
 #include "tcm_icp/core/error.hpp"
 #include "tcm_icp/core/rigid_transform.hpp"
@@ -86,6 +88,13 @@ std::optional<Eigen::Isometry3d> pose_of(const nlohmann::json& entry, const char
   // What we have written ourselves must come back with the same bits.
   pose.linear() = is_rigid(matrix, kRigid) ? R : project_onto_so3(R);
   return pose;
+}
+
+std::optional<int> whole_number_of(const nlohmann::json& value) {
+  const bool fits = value.is_number_unsigned()
+                        ? std::in_range<int>(value.get<std::uint64_t>())
+                        : value.is_number_integer() && std::in_range<int>(value.get<std::int64_t>());
+  return fits ? std::optional(value.get<int>()) : std::nullopt;
 }
 
 }  // namespace tcm_icp

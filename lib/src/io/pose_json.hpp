@@ -22,4 +22,8 @@ const nlohmann::json& scans_of(const nlohmann::json& document, const std::filesy
 std::optional<Eigen::Isometry3d> pose_of(const nlohmann::json& entry, const char* key,
                                          const std::filesystem::path& path, const std::string& place);
 
+/// A whole number within the range of int; nullopt where `value` is something else. By hand: the library casts whatever
+/// number there is, and one beyond the range has no defined value.
+std::optional<int> whole_number_of(const nlohmann::json& value);
+
 }  // namespace tcm_icp
