@@ -157,8 +157,20 @@ TEST(LinkFeatures, FreeSpaceHoldsWhatSeesThroughMoreAfterASlide) {
   EXPECT_NEAR(held(2000, 3, 1600, 100), std::log((0.004 + 90.0 / 1600) / (0.004 + 6.0 / 2000)), 1e-12);
   EXPECT_EQ(held(2000, 100, 1600, 80), 0) << "as much here";
   EXPECT_EQ(held(99, 0, 1600, 100), 0) << "too few points";
-  EXPECT_EQ(held(2000, 3, 99, 99), 0) << "too few points after it";
+  EXPECT_EQ(held(2000, 3, 29, 29), 0) << "too few points after it";
   EXPECT_LT(held(100, 0, 1600, 100), held(2000, 0, 1600, 100)) << "none of a few points is chance";
+}
+
+TEST(LinkFeatures, WhatNoSlideCanTellIsNotCountedAsNotHeld) {
+  LinkMeasurements m = usual_link();
+  const auto unknown = [&](std::size_t num_points, std::size_t slid_points) {
+    m.free_space = {num_points, 0, 0, 0};
+    m.slid_space = {slid_points, 0, 0, 0};
+    return feature("held_unknown", link_features(m, std::nullopt, usual_set()));
+  };
+  EXPECT_EQ(unknown(2000, 30), 0) << "not held";
+  EXPECT_EQ(unknown(2000, 29), 1);
+  EXPECT_EQ(unknown(99, 0), 0) << "nothing is known of the pose itself: another feature";
 }
 
 // Free space that shows nothing speaks against scans that see space, and says nothing of others.

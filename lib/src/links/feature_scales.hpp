@@ -17,6 +17,7 @@ constexpr double kMostLeft = 2;         // a slide that doubles the agreement: t
 constexpr double kMostRatio = 10;       // of two measurements that are compared
 constexpr std::size_t kFewAcross = 30;  // points: with fewer a share is chance
 constexpr std::size_t kFewMatches = 100;
+constexpr std::size_t kFewSlid = 30;  // the ratio of shares has its own allowance for chance
 // Violations and opposite sides that noise and thin things make at right poses, of which more begins to tell.
 constexpr double kUsualViolations = 0.004, kUsualOpposed = 0.03;
 
@@ -50,10 +51,13 @@ inline double violations(const FreeSpaceEvidence& e) {
   return e.tells() ? beyond(e.num_violating, e.num_points, kUsualViolations) : 0;
 }
 
+/// Where scans overlap little a slide takes them apart, and nothing is left that could be seen through.
+inline bool tells_slid(const FreeSpaceEvidence& slid) { return slid.num_points >= kFewSlid; }
+
 /// Logarithm of how many times more is seen through after a slide, at least, than here, at most: a standard deviation
 /// of the counts is left to chance. 0 where as much is, or few points tell.
 inline double held_by_space(const FreeSpaceEvidence& here, const FreeSpaceEvidence& slid) {
-  if (!here.tells() || !slid.tells()) return 0;
+  if (!here.tells() || !tells_slid(slid)) return 0;
   const auto after = static_cast<double>(slid.num_violating), before = static_cast<double>(here.num_violating + 1);
   const double least = (after - std::min(after, std::sqrt(after))) / static_cast<double>(slid.num_points);
   const double most = (before + std::sqrt(before)) / static_cast<double>(here.num_points);

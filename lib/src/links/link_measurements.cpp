@@ -59,15 +59,16 @@ LinkFeatures link_features(const LinkMeasurements& m, const std::optional<Search
   f[13] = opposed(m.free_space);
   f[14] = !m.free_space.tells() && m.sighted ? 1 : 0;
   f[15] = held_by_space(m.free_space, m.slid_space);
-  f[16] = !m.free_space.tells() && !m.sighted ? 1 : 0;
+  f[16] = m.free_space.tells() && !tells_slid(m.slid_space) ? 1 : 0;
+  f[17] = !m.free_space.tells() && !m.sighted ? 1 : 0;
   if (!search) return f;
   const double margin = std::log(std::clamp(search->margin, 1 / kMostRatio, kMostRatio));
-  f[17] = second_best(*search);
-  f[18] = search->method == CoarseMethod::kHeightMap ? margin : 0;
-  f[19] = search->method == CoarseMethod::kHeightMap ? 1 : 0;
-  f[20] = search->method == CoarseMethod::kFeatures ? margin : 0;
-  f[21] = search->method == CoarseMethod::kSlide ? 1 : 0;
-  f[22] = search->method == CoarseMethod::kImplied || search->method == CoarseMethod::kGuess ? 1 : 0;
+  f[18] = second_best(*search);
+  f[19] = search->method == CoarseMethod::kHeightMap ? margin : 0;
+  f[20] = search->method == CoarseMethod::kHeightMap ? 1 : 0;
+  f[21] = search->method == CoarseMethod::kFeatures ? margin : 0;
+  f[22] = search->method == CoarseMethod::kSlide ? 1 : 0;
+  f[23] = search->method == CoarseMethod::kImplied || search->method == CoarseMethod::kGuess ? 1 : 0;
   return f;
 }
 

@@ -43,7 +43,7 @@ struct SetReference {
 };
 
 /// Names of the numbers below, in their order.
-inline constexpr std::array<std::string_view, 23> kLinkFeatureNames{"log_overlap",
+inline constexpr std::array<std::string_view, 24> kLinkFeatureNames{"log_overlap",
                                                                     "log_other_overlap",
                                                                     "log_inlier_share",
                                                                     "log_other_inlier_share",
@@ -59,6 +59,7 @@ inline constexpr std::array<std::string_view, 23> kLinkFeatureNames{"log_overlap
                                                                     "opposed",
                                                                     "space_unseen",
                                                                     "held_by_space",
+                                                                    "held_unknown",
                                                                     "blind",
                                                                     "second_best",
                                                                     "height_map_margin",
@@ -66,8 +67,8 @@ inline constexpr std::array<std::string_view, 23> kLinkFeatureNames{"log_overlap
                                                                     "feature_margin",
                                                                     "slide",
                                                                     "implied"};
-inline constexpr std::size_t kBlind = 16;            ///< place of "blind": neither model judges what the other does
-inline constexpr std::size_t kNumPoseFeatures = 17;  ///< the others are of the search
+inline constexpr std::size_t kBlind = 17;            ///< place of "blind": neither model judges what the other does
+inline constexpr std::size_t kNumPoseFeatures = 18;  ///< the others are of the search
 using LinkFeatures = std::array<double, kLinkFeatureNames.size()>;
 
 /// Finite, without a unit, each within bounds beyond which it says no more. Search features are 0 without a search.
