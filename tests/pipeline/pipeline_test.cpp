@@ -293,7 +293,6 @@ TEST(Pipeline, ScansThatHoldTogetherButNotWithTheReferenceKeepTheirPoses) {
   const TempFolder folder;
   SyntheticSceneOptions four = kRubble;
   four.num_scans = 4;
-  four.points_per_scan = 20000;  // enough for slides to tell
   SceneFiles files = testing::write_scene(folder.path(), four, kAngle, kShift, 10);
   files.initial.assign(4, std::nullopt);
   Rng rng = make_stream(10, "pipeline_test");

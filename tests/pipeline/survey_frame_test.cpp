@@ -19,7 +19,7 @@ struct TwoPlaces {
   explicit TwoPlaces(const TempFolder& folder) {
     const testing::SyntheticSceneOptions four{.shape = testing::SyntheticShape::kRubble,
                                               .num_scans = 4,
-                                              .points_per_scan = 20000,
+                                              .points_per_scan = 6000,
                                               .range_m = 16,
                                               .noise_m = 0.01};
     files = testing::write_scene(folder.path(), four, 0.12, 1.0, 10);
