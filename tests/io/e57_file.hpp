@@ -21,6 +21,7 @@ struct E57Parts {
   std::vector<E57Column> columns;
   std::string pose;             ///< XML
   std::size_t num_packets = 1;  ///< the columns are cut into, each at other places
+  std::uint8_t section_id = 1;  ///< 1: of points
 };
 
 /// CRC-32C, bit by bit.
@@ -72,7 +73,7 @@ inline std::string e57_section(const E57Parts& scan, std::uint64_t at) {
     }
     packets += e57_packet(pieces);
   }
-  return padded(joined(std::uint8_t{1}), 8) +
+  return padded(joined(scan.section_id), 8) +
          joined(std::uint64_t{32} + packets.size(), e57_physical(at + 32), std::uint64_t{0}) + packets;
 }
 

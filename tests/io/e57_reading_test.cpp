@@ -174,6 +174,12 @@ TEST(E57Reading, WhatIsWrongIsTold) {
   E57Parts scan = two_points();
   scan.num_points = 3;
   EXPECT_NE(message(e57_file({scan})).find("end after about 0 of 3"), std::string::npos);
+  scan.section_id = 2;
+  for (const std::uint64_t num_points : {0, 2}) {
+    scan.num_points = num_points;
+    EXPECT_NE(message(e57_file({scan})).find("is none of points"), std::string::npos) << num_points;
+  }
+  scan.section_id = 1;
   scan.num_points = 1'000'000'000'000;
   EXPECT_NE(message(e57_file({scan})).find("has room for"), std::string::npos);
   scan = two_points();

@@ -51,7 +51,7 @@ E57Points::E57Points(E57Pages& pages, const E57Scan& scan, const std::vector<std
   }
   check_room(scan);
   values_.assign(wanted.size(), std::vector<double>(kBatch));
-  if (num_points_ > 0) read_section(scan);
+  if (num_points_ > 0 || scan.points_offset > 0) read_section(scan);  // some write none for no points
 }
 
 void E57Points::fail(const std::string& problem) const { throw InputError(pages_.path(), "points", problem, kDamaged); }
@@ -76,6 +76,7 @@ void E57Points::read_section(const E57Scan& scan) {
   const auto length = load<std::uint64_t>(header.data() + 8);
   if (length > pages_.logical_size() - begin) fail("their section is longer than the file");
   end_ = begin + length;
+  if (num_points_ == 0) return;
   next_packet_ = pages_.logical(load<std::uint64_t>(header.data() + 16), "the first packet of points");
 }
 
