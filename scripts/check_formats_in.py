@@ -152,13 +152,13 @@ FORMATS = {
 def poses_from(exe, name, scans, folder):
     """By the name of the scan without its extension; those that are not registered have none."""
     extension, write = FORMATS[name]
-    folder.mkdir(parents=True)
+    folder.mkdir(parents=True, exist_ok=True)
     files = []
     for stem, points in scans.items():
         files.append(folder / (stem + extension))
         files[-1].write_bytes(write(points))
     options = ["--bin", "kitti"] if extension == ".bin" else []
-    result = subprocess.run([exe, "register", *files, "--out", folder / "out", "--quiet", *options], text=True,
+    result = subprocess.run([exe, "register", *files, "--out", folder / "out", "--quiet", "--force", *options], text=True,
                             stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)
     if result.returncode not in (0, 3):
         raise ValueError(result.stdout.strip())
@@ -166,37 +166,43 @@ def poses_from(exe, name, scans, folder):
     return {Path(s["file"]).stem: np.array(s["pose"]) for s in listed if s["pose"] is not None}
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--exe", default=str(REPOSITORY / "build/release/app/tcm-icp"))
-    parser.add_argument("--data", type=Path, default=REPOSITORY / "datasets/town", help="folder of PLY files")
-    parser.add_argument("--keep", type=Path, help="leave the files in this folder, which must not have them yet")
-    arguments = parser.parse_args()
-    if shutil.which(arguments.exe) is None:
-        parser.error(f"there is no {arguments.exe}; build it, or name it by --exe")
-    scans = {path.stem: np.rint(read_points(path) / STEP) * STEP for path in sorted(arguments.data.glob("*.ply"))}
-    if len(scans) < 2:
-        parser.error(f"{arguments.data} has fewer than two PLY files")
+def compare(exe, scans, folder):
+    """The exit status, after a line for each format."""
     extent = max(np.ptp(points, axis=0).max() for points in scans.values())
-    folder = arguments.keep or Path(tempfile.mkdtemp())
     expected, failures = None, 0
     print(f"{'format':26} {'registered':>10} {'difference by extent':>20}  result")
     for number, name in enumerate(FORMATS):
         try:
-            poses = poses_from(arguments.exe, name, scans, folder / f"{number:02}")
+            poses = poses_from(exe, name, scans, folder / f"{number:02}")
         except ValueError as error:
             failures += 1
             print(f"{name:26} {'':>10} {'':>20}  {error}", flush=True)
             continue
         expected = expected or poses
         apart = max((np.abs(poses[s] - expected[s]).max() for s in poses if s in expected), default=0) / extent
-        problem = ("other scans are registered" if poses.keys() != expected.keys()
+        problem = ("no pair is registered" if len(poses) < 2
+                   else "other scans are registered" if poses.keys() != expected.keys()
                    else "other poses" if apart > ALLOWED else "")
         failures += problem != ""
         print(f"{name:26} {len(poses):>7} of {len(scans)} {apart:>20.1e}  {problem or 'ok'}", flush=True)
-    if arguments.keep is None:
-        shutil.rmtree(folder)
     return 1 if failures else 0
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--exe", default=str(REPOSITORY / "build/release/app/tcm-icp"))
+    parser.add_argument("--data", type=Path, default=REPOSITORY / "datasets/town", help="folder of PLY files")
+    parser.add_argument("--keep", type=Path, help="leave the files in this folder")
+    arguments = parser.parse_args()
+    if shutil.which(arguments.exe) is None:
+        parser.error(f"there is no {arguments.exe}; build it, or name it by --exe")
+    scans = {path.stem: np.rint(read_points(path) / STEP) * STEP for path in sorted(arguments.data.glob("*.ply"))}
+    if len(scans) < 2:
+        parser.error(f"{arguments.data} has fewer than two PLY files")
+    if arguments.keep:
+        return compare(arguments.exe, scans, arguments.keep)
+    with tempfile.TemporaryDirectory() as folder:
+        return compare(arguments.exe, scans, Path(folder))
 
 
 if __name__ == "__main__":
