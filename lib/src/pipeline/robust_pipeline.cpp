@@ -161,52 +161,58 @@ class RobustPipeline {
     return out;
   }
 
-  // The likeliest component first; then what is left, as long as some of it holds together.
+  // The likeliest component first; then what is left, as long as some of it holds together. Scans that a component has
+  // set aside are open again to those after it, which are therefore inferred anew.
   void build_components() {
     result_.measurements.resize(size());
     result_.decisions.resize(size());
     std::vector<bool> left(size(), true);
-    while (true) {
+    for (bool is_any_settled = true; is_any_settled;) {
+      is_any_settled = false;
       const PairGraph graph = hypotheses_->graph(left, in_.options.inference);
-      std::vector<Component> likeliest = components_of(graph, kLeastStarts);
-      if (likeliest.empty()) break;
-      std::size_t num_settled = 0;
-      for (Component& component : likeliest) {
-        if (!in_.options.reference.empty() && component.has(result_.reference)) {
-          change_reference(component, result_.reference);
-        }
-        in_.clock.begin("merge");
-        const auto records = merge_once(in_.steps, scans_, graph, in_.options.merging(), in_.context, component);
-        for (const MergeRecord& r : records) in_.context.debug(in_.files[r.scan] + " merged: " + r.reason);
-        result_.merges.insert(result_.merges.end(), records.begin(), records.end());
-        in_.clock.begin("adjust and verify");
-        settled_.push_back(settle(scans_, *hypotheses_, graph, resolutions_, in_.options, in_.context,
-                                  std::move(component), in_.steps));
-        for (std::size_t i = 0; i < size(); ++i) {
-          const Decision& decision = settled_.back().decisions[i];
-          if (settled_.back().measurements[i] && !decision.accepted()) {
-            std::ostringstream said;
-            said << in_.files[i] << " set aside: " << decision.text << "; probability " << decision.probability
-                 << ", lead " << settled_.back().measurements[i]->lead;
-            in_.context.debug(said.str());
-          }
-          if (!settled_.back().measurements[i] || result_.measurements[i]) continue;
-          result_.measurements[i] = settled_.back().measurements[i];
-          result_.decisions[i] = settled_.back().decisions[i];
-        }
-        if (settled_.back().component.size() < 2) {
-          settled_.pop_back();
-          continue;
-        }
-        for (const std::size_t i : settled_.back().component.members()) {
-          left[i] = false;
-          result_.measurements[i] = settled_.back().measurements[i];
-          result_.decisions[i] = settled_.back().decisions[i];
-        }
-        ++num_settled;
+      for (Component& component : components_of(graph, kLeastStarts)) {
+        const std::size_t num_inferred = component.size();
+        SettledComponent settled = merge_and_settle(graph, std::move(component));
+        const std::size_t num_kept = settled.component.size();
+        keep_decisions(settled);
+        if (num_kept < 2) continue;
+        for (const std::size_t i : settled.component.members()) left[i] = false;
+        settled_.push_back(std::move(settled));
+        is_any_settled = true;
+        if (num_kept < num_inferred) break;
       }
-      if (num_settled == 0) break;
       known_.clear();  // with the scans that are settled
+    }
+  }
+
+  SettledComponent merge_and_settle(const PairGraph& graph, Component component) {
+    if (!in_.options.reference.empty() && component.has(result_.reference)) {
+      change_reference(component, result_.reference);
+    }
+    in_.clock.begin("merge");
+    const auto records = merge_once(in_.steps, scans_, graph, in_.options.merging(), in_.context, component);
+    for (const MergeRecord& r : records) in_.context.debug(in_.files[r.scan] + " merged: " + r.reason);
+    result_.merges.insert(result_.merges.end(), records.begin(), records.end());
+    in_.clock.begin("adjust and verify");
+    return settle(scans_, *hypotheses_, graph, resolutions_, in_.options, in_.context, std::move(component), in_.steps);
+  }
+
+  // A scan's last decision is that of the component it is in; of one that is in none, the first.
+  void keep_decisions(const SettledComponent& settled) {
+    const bool holds = settled.component.size() >= 2;
+    for (std::size_t i = 0; i < size(); ++i) {
+      const auto& measured = settled.measurements[i];
+      const Decision& decision = settled.decisions[i];
+      if (measured && !decision.accepted()) {
+        std::ostringstream said;
+        said << in_.files[i] << " set aside: " << decision.text << "; probability " << decision.probability << ", lead "
+             << measured->lead;
+        in_.context.debug(said.str());
+      }
+      const bool is_member = holds && settled.component.has(i);
+      if (!is_member && (!measured || result_.measurements[i])) continue;
+      result_.measurements[i] = measured;
+      result_.decisions[i] = decision;
     }
   }
 
