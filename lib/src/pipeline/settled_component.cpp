@@ -232,8 +232,8 @@ class Settling {
     m.other_distance = rms_displacement(T.inverse() * *weakest->other_motion * T, scans_[scan].moments);
   }
 
-  // Who leaves: nobody, where all pass. What a scan that leaves is linked to is judged again without it; what is not
-  // leaves together with it.
+  // Who leaves: nobody, where all pass. What a scan that does not pass is linked to is judged again without it, whether
+  // it leaves now or waits for a worse one itself; what is not leaves together with it.
   std::vector<std::size_t> decide_members() {
     const std::vector<std::size_t> members = out_.component.members();
     if (members.size() < 2) return {};
@@ -249,17 +249,16 @@ class Settling {
       return out_.decisions[x].probability < out_.decisions[y].probability;
     });
     std::vector<std::size_t> leaving;
-    std::vector<bool> is_touched(scans_.size(), false);  // leaves, or is linked to what does
+    std::vector<bool> is_touched(scans_.size(), false);  // does not pass, or is linked to what does not
     for (const std::size_t i : worst_first) {
       const std::vector<std::size_t> part = leaving_with(i, members);
       const bool waits = std::any_of(part.begin(), part.end(), [&](std::size_t j) { return is_touched[j]; }) ||
                          (!leaving.empty() && 2 * part.size() > members.size() - leaving.size());
-      if (waits) continue;
-      leaving.insert(leaving.end(), part.begin(), part.end());
-      std::vector<bool> leaves(scans_.size(), false);
-      for (const std::size_t j : part) is_touched[j] = leaves[j] = true;
+      if (!waits) leaving.insert(leaving.end(), part.begin(), part.end());
+      std::vector<bool> fails(scans_.size(), false);
+      for (const std::size_t j : part) is_touched[j] = fails[j] = true;
       for (const auto& [a, b] : out_.pairs) {
-        if (leaves[a] || leaves[b]) is_touched[a] = is_touched[b] = true;
+        if (fails[a] || fails[b]) is_touched[a] = is_touched[b] = true;
       }
     }
     return leaving;
