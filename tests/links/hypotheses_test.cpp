@@ -237,7 +237,7 @@ class WithoutUnlikely : public HypothesisSetTest {
   void compare(std::size_t a, std::size_t b, double off_m) { set_->add(a, b, {aside(a, b, off_m)}); }
   Pairs kept() {
     set_->score();
-    return set_->without_unlikely(all_, T_);
+    return set_->without_unlikely(all_, set_->graph(std::vector<bool>(T_.size(), true), {}), T_);
   }
   const Pairs all_{{0, 1}, {1, 2}, {0, 2}};
 };

@@ -70,20 +70,28 @@ Agreement PairGraph::agreement(const ComparedPair& pair, const Eigen::Isometry3d
     const double beyond_m = std::max(apart_m, same_m_ / 8);
     const double near = options_.log_spread * std::log(8 * beyond_m / same_m_);
     const double chance = options_.log_poses - (h.implied ? options_.log_implied : 0) - near;
-    const double odds = std::exp(std::min(h.log_odds, options_.most_log_odds) + chance);
-    const double missed = h.implied ? std::exp(options_.log_missed) : 1;
-    const double says = std::log(missed + odds);
-    const double shows =
-        std::exp(std::min(h.log_odds - std::max(0.0, h.taught - taught_by_others), options_.most_log_odds) +
-                 options_.log_poses - options_.log_implied - near);
-    const double says_of_twins = std::log(std::exp(options_.log_missed) + shows);
+    const double log_odds = std::min(h.log_odds, options_.most_log_odds) + chance;
+    const double says = h.implied ? says_implied(h, log_odds) : std::log1p(std::exp(log_odds));
+    const double says_of_twins =
+        says_implied(h, std::min(h.log_odds - std::max(0.0, h.taught - taught_by_others), options_.most_log_odds) +
+                            options_.log_poses - options_.log_implied - near);
     best.against_twins = best.hypothesis == nullptr ? says_of_twins : std::max(best.against_twins, says_of_twins);
     if (best.hypothesis != nullptr && says <= best.support) continue;
     best.support = says;
     best.hypothesis = &h;
-    best.pull = odds / (missed + odds) * options_.log_spread / (beyond_m * beyond_m);
+    best.log_odds = log_odds;
+    const double missed = h.implied ? std::exp(log_missed(h)) : 1;
+    best.pull = (1 - missed * std::exp(-says)) * options_.log_spread / (beyond_m * beyond_m);
   }
   return best;
+}
+
+Agreement PairGraph::agreement(std::size_t a, std::size_t b, const Eigen::Isometry3d& T_a,
+                               const Eigen::Isometry3d& T_b) const {
+  const auto& of_a = pairs_of(a);
+  const auto found =
+      std::find_if(of_a.begin(), of_a.end(), [&](std::size_t k) { return pairs_[k].a == a && pairs_[k].b == b; });
+  return found == of_a.end() ? Agreement{} : agreement(pairs_[*found], T_a, T_b);
 }
 
 double PairGraph::constant_without(const std::vector<std::size_t>& pairs) const {
@@ -104,9 +112,20 @@ double PairGraph::constant_without(const std::vector<std::size_t>& pairs) const 
 }
 
 double PairGraph::most_support(const PoseHypothesis& h) const {
-  const double chance = options_.log_poses - (h.implied ? options_.log_implied : 0);
-  return std::log((h.implied ? std::exp(options_.log_missed) : 1) +
-                  std::exp(std::min(h.log_odds, options_.most_log_odds) + chance));
+  const double log_odds = std::min(h.log_odds, options_.most_log_odds) + options_.log_poses;
+  return h.implied ? says_implied(h, log_odds - options_.log_implied) : std::log1p(std::exp(log_odds));
+}
+
+// Of the right pose, of which so little overlaps: that it shows nothing.
+double PairGraph::log_missed(const PoseHypothesis& h) const {
+  return options_.log_missed * std::min(1.0, h.overlap / options_.telling_overlap);
+}
+
+// The right pose shows nothing, or else something that is likelier there by its odds.
+double PairGraph::says_implied(const PoseHypothesis& h, double log_odds) const {
+  const double missed = log_missed(h);
+  const double shows = options_.log_missed == 0 ? 1 : std::expm1(missed) / std::expm1(options_.log_missed);
+  return std::log(std::exp(missed) + shows * std::exp(log_odds));
 }
 
 double PairGraph::support_of(std::size_t scan, const Eigen::Isometry3d& T, const Component& component) const {

@@ -22,7 +22,8 @@ struct PoseHypothesis {
   double log_odds = 0;  ///< that it is right, by the pair and what the set's poses have taught
   /// Its fit started from where other pairs put the scans: that it lies there is no coincidence.
   bool implied = false;
-  double taught = 0;  ///< of the log-odds: the set's constant, as far as `teachers` have taught it
+  double overlap = 1;  ///< of the pair there
+  double taught = 0;   ///< of the log-odds: the set's constant, as far as `teachers` have taught it
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();  ///< of b's points, in a's frame; PairGraph's
 };
 
@@ -40,6 +41,7 @@ struct Agreement {
   /// is wrong.
   double against_twins = 0;
   const PoseHypothesis* hypothesis = nullptr;  ///< that says most; none: none agrees
+  double log_odds = 0;                         ///< that it is right, as it agrees with the poses so closely
   double pull = 0;                             ///< [1/m^2] with which it draws the poses to its own
 };
 
@@ -92,7 +94,9 @@ class PairGraph {
   /// that a hypothesis and the poses agree so closely: log_poses up to same_m / 8, from there on log_spread less for
   /// every factor e in their distance, since wrong poses scatter and fits to a right one do not; and log_implied less
   /// where it is implied. The 1 is of a search that missed the right pose. A fit that starts there misses it rarely: an
-  /// implied hypothesis of little odds counts against the poses, by log_missed at the most.
+  /// implied hypothesis of little odds counts against the poses, by log_missed at the most; by less where less than
+  /// telling_overlap of the pair overlaps there, for the right pose seldom shows there either, and what it shows
+  /// counts for less.
   double support(const ComparedPair& pair, const Eigen::Isometry3d& T_a, const Eigen::Isometry3d& T_b) const {
     return agreement(pair, T_a, T_b).support;
   }
@@ -102,6 +106,9 @@ class PairGraph {
   /// @param taught_by_others  the set's constant by what poses at a twin would not have taught
   Agreement agreement(const ComparedPair& pair, const Eigen::Isometry3d& T_a, const Eigen::Isometry3d& T_b,
                       double taught_by_others = std::numeric_limits<double>::infinity()) const;
+
+  /// The same of the pair of two scans; no hypothesis where they have none.
+  Agreement agreement(std::size_t a, std::size_t b, const Eigen::Isometry3d& T_a, const Eigen::Isometry3d& T_b) const;
 
   /// The set's constant as it would be without these pairs, ascending; infinite where they are too few to matter. Cost:
   /// all hypotheses that taught it.
@@ -123,6 +130,9 @@ class PairGraph {
                  std::vector<Eigen::Isometry3d>& known) const;
 
  private:
+  double log_missed(const PoseHypothesis& hypothesis) const;
+  double says_implied(const PoseHypothesis& hypothesis, double log_odds) const;
+
   std::vector<ComparedPair> pairs_;
   std::vector<PointMoments> moments_;
   std::vector<double> least_spread_m_;  // of each scan's points: rms distance from an axis through their mean

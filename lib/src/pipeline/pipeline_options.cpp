@@ -48,6 +48,7 @@ void InferenceOptions::validate() const {
           log_implied);
   require(set_spread >= 0, "inference set_spread must be at least 0", set_spread);
   require(log_missed <= 0, "inference log_missed must be at most 0", log_missed);
+  require(telling_overlap > 0, "inference telling_overlap must be positive", telling_overlap);
   require(log_twins >= 0, "inference log_twins must be at least 0", log_twins);
   require(log_spread >= 0, "inference log_spread must be at least 0", log_spread);
   require(most_log_odds > 0, "inference most_log_odds must be above 0", most_log_odds);

@@ -84,7 +84,7 @@ class Settling {
   void adjust() {
     std::vector<Eigen::Isometry3d> T = poses();
     out_.pairs = hypotheses_.without_unlikely(
-        overlapping_pairs(scans_, T, membership(), kMinLinkOverlap, context_.num_threads), T);
+        overlapping_pairs(scans_, T, membership(), kMinLinkOverlap, context_.num_threads), graph_, T);
     out_.adjustment = adjust_once(steps_, scans_, out_.pairs, out_.component.reference, resolutions_,
                                   options_.adjustment, options_.lp, context_, T, poses_are_);
     poses_are_ = StartingPoses::kAdjusted;
@@ -245,6 +245,7 @@ class Settling {
       out_.decisions[i] = decide(*out_.measurements[i], usual, options_.decision);
       if (!out_.decisions[i].accepted()) worst_first.push_back(i);
     }
+    if (const Cut* contradicted = most_contradicted()) return smaller_side(*contradicted, members);
     std::stable_sort(worst_first.begin(), worst_first.end(), [&](std::size_t x, std::size_t y) {
       return out_.decisions[x].probability < out_.decisions[y].probability;
     });
@@ -264,14 +265,31 @@ class Settling {
     return leaving;
   }
 
-  // What may lie elsewhere leaves as a whole: of two parts that do to one another, the larger stays.
+  // What the pairs across speak against, as poses are adjusted: hypotheses hung it there that the others do not bear
+  // out. Wherever it belongs, it spoils what is measured of its neighbours here.
+  const Cut* most_contradicted() const {
+    const Cut* worst = nullptr;
+    for (const Cut& cut : cuts_) {
+      if (cut.support >= 0) continue;
+      const bool is_worse = worst == nullptr || cut.support < worst->support ||
+                            (cut.support == worst->support && cut.moved.size() > worst->moved.size());
+      if (is_worse) worst = &cut;
+    }
+    return worst;
+  }
+
+  // What may lie elsewhere leaves as a whole.
   std::vector<std::size_t> leaving_with(std::size_t scan, const std::vector<std::size_t>& members) const {
     const Cut* cut = weakest_cut_of(scan);
     if (out_.decisions[scan].reason != Reason::kAmbiguous || cut == nullptr) return {scan};
-    if (2 * cut->moved.size() <= members.size()) return cut->moved;
+    return smaller_side(*cut, members);
+  }
+
+  // Of two parts that may lie elsewhere to one another, the larger stays.
+  static std::vector<std::size_t> smaller_side(const Cut& cut, const std::vector<std::size_t>& members) {
+    if (2 * cut.moved.size() <= members.size()) return cut.moved;
     std::vector<std::size_t> others;
-    std::set_difference(members.begin(), members.end(), cut->moved.begin(), cut->moved.end(),
-                        std::back_inserter(others));
+    std::set_difference(members.begin(), members.end(), cut.moved.begin(), cut.moved.end(), std::back_inserter(others));
     return others;
   }
 

@@ -47,8 +47,8 @@ void transfer(Record& record, T& value) {
 
 template <typename Record, MaybeConst<PoseHypothesis> T>
 void transfer(Record& record, T& value) {
-  auto& [T_a_b, log_odds, implied, taught, mean] = value;
-  record(T_a_b, log_odds, implied, taught, mean);
+  auto& [T_a_b, log_odds, implied, overlap, taught, mean] = value;
+  record(T_a_b, log_odds, implied, overlap, taught, mean);
 }
 
 template <typename Record, MaybeConst<JudgedHypothesis> T>
@@ -65,8 +65,9 @@ void transfer(Record& record, T& value) {
 
 template <typename Record, MaybeConst<InferenceOptions> T>
 void transfer(Record& record, T& value) {
-  auto& [poses, implied, missed, twins, spread, most_log_odds, set_spread, max_starts, max_grown, max_sweeps] = value;
-  record(poses, implied, missed, twins, spread, most_log_odds, set_spread, max_starts, max_grown, max_sweeps);
+  auto& [poses, implied, missed, telling, twins, spread, most_log_odds, set_spread, max_starts, max_grown, max_sweeps] =
+      value;
+  record(poses, implied, missed, telling, twins, spread, most_log_odds, set_spread, max_starts, max_grown, max_sweeps);
 }
 
 template <typename Record, MaybeConst<RobustTcmOptions> T>

@@ -9,6 +9,8 @@ struct InferenceOptions {
   double log_poses = 3;      ///< > 0
   double log_implied = 2;    ///< 0..log_poses; by how much less it says that a fit ends where it started from
   double log_missed = -1.5;  ///< <= 0; logarithm of how often a fit that starts at the right pose shows nothing
+  /// > 0; of an implied hypothesis, from which on that is so: what overlaps less shows less, right or wrong.
+  double telling_overlap = 0.2;
   /// >= 0; logarithm of by how much rarer places are at which all pairs look as they do at the right one.
   double log_twins = 3;
   double log_spread = 3;     ///< >= 0; by how much less it says of poses that it is e times farther from
