@@ -88,6 +88,40 @@ TEST_F(ComparedPairsTest, AFitThatStartedFromThesePosesSaysLess) {
   EXPECT_NEAR(support(0) - one, 5 + options_.log_poses - options_.log_implied, 0.01);
 }
 
+// At the right pose, too, what hardly overlaps shows nothing.
+TEST_F(ComparedPairsTest, AFitOfWhatHardlyOverlapsCountsLittleForOrAgainst) {
+  const auto says = [&](double overlap, double log_odds) {
+    HypothesisWorld world(2, rng_);
+    PoseHypothesis implied = world.hypothesis(0, 1, log_odds);
+    implied.implied = true;
+    implied.overlap = overlap;
+    world.add(0, 1, {implied});
+    const PairGraph graph = world.graph();
+    return graph.support(graph.pairs()[0], Eigen::Isometry3d::Identity(), world.T_target_source(0, 1));
+  };
+  const double telling = options_.telling_overlap;
+  EXPECT_NEAR(says(1, -20), options_.log_missed, 1e-6);
+  EXPECT_EQ(says(telling, -20), says(1, -20));
+  EXPECT_NEAR(says(telling / 2, -20), options_.log_missed / 2, 1e-6);
+  EXPECT_EQ(says(0, -20), 0);
+  EXPECT_EQ(says(0, 5), 0);
+  EXPECT_GT(says(telling / 2, 5), 4) << "what shows counts all the same";
+  EXPECT_LT(says(telling / 2, 5), says(1, 5));
+  EXPECT_LT(says(telling / 2, -1), says(telling / 2, 0));
+}
+
+TEST_F(ComparedPairsTest, TheLogOddsOfWhatAgreesAreThoseWithTheAgreement) {
+  world_.add(0, 3, {world_.hypothesis(0, 3, -1)});
+  world_.add(1, 3, {world_.aside(1, 3, -1, 0.5 * kSame_m)});
+  const PairGraph graph = world_.graph();
+  const auto of = [&](std::size_t a) {
+    return graph.agreement(a, 3, Eigen::Isometry3d::Identity(), world_.T_target_source(a, 3));
+  };
+  EXPECT_NEAR(of(0).log_odds, options_.log_poses - 1, 1e-9);
+  EXPECT_NEAR(of(1).log_odds, options_.log_poses - 1 - options_.log_spread * std::log(4), 0.1);
+  EXPECT_EQ(of(2).hypothesis, nullptr) << "not compared";
+}
+
 // Two of them by chance at one place of e^3 is less likely than either being right.
 TEST_F(ComparedPairsTest, WeakHypothesesThatAgreeAreWorthMoreThanTheirSum) {
   world_.add(0, 3, {world_.hypothesis(0, 3, -1)});

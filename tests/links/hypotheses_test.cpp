@@ -267,6 +267,18 @@ TEST_F(WithoutUnlikely, APairThatLeadsThereButIsLikelierWrongIsLeftOut) {
   ASSERT_GT(of(0, 1).front().log_odds, 0);
 }
 
+TEST_F(WithoutUnlikely, APairThatIsLikelyOnceItAgreesStays) {
+  compare(0, 1, 0);
+  compare(1, 2, 0);
+  LinkHypothesis doubtful = aside(0, 2, 0);
+  doubtful.measurements.evidence.inlier_share *= 0.6;
+  doubtful.measurements.other_inlier_share *= 0.6;
+  set_->add(0, 2, {doubtful});
+  EXPECT_EQ(kept(), all_);
+  ASSERT_LT(of(0, 2).front().log_odds, 0) << "by itself";
+  ASSERT_GT(of(0, 2).front().log_odds, -InferenceOptions{}.log_poses);
+}
+
 TEST_F(WithoutUnlikely, NotWhereItAloneConnectsItsScans) {
   compare(0, 1, 0);
   compare(1, 2, 3);

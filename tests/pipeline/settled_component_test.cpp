@@ -148,6 +148,24 @@ TEST_F(SettledComponentTest, TheReferenceIsJudgedLikeTheOthers) {
   for (const std::size_t i : {1u, 2u, 3u}) EXPECT_LE(error_m(out.component, i), 0.1 * s_.resolutions.fine_m) << i;
 }
 
+// Hung on the others by nothing that the pairs across bear out, two scans fail together, and so may their neighbours.
+TEST_F(SettledComponentTest, WhatThePairsAcrossSpeakAgainstLeavesAsAWholeBeforeOthersAreJudged) {
+  see(testing::SyntheticShape::kRubble, 6);
+  join_all(8);
+  std::erase_if(pairs_, [](const ComparedPair& p) { return (p.a < 4) != (p.b < 4); });
+  const Isometry3d motion = Eigen::Translation3d(1.5, -1, 0.5) * Eigen::AngleAxisd(0.4, Eigen::Vector3d::UnitZ());
+  for (const std::size_t i : {4u, 5u}) component_.T_reference_scan[i] = motion * *component_.T_reference_scan[i];
+  options_.decision.confidence = 0.5;
+  const SettledComponent out = settled();
+  EXPECT_EQ(out.component.members(), (Scans{0, 1, 2, 3}));
+  for (const std::size_t i : {4u, 5u}) {
+    EXPECT_FALSE(out.decisions[i].accepted());
+    EXPECT_EQ(out.measurements[i]->num_moved, 2u) << "judged while both were there, and not one after the other";
+  }
+  options_.decision.confidence = 0;
+  EXPECT_EQ(settled().component.size(), 6u) << "who asks for all gets all";
+}
+
 TEST_F(SettledComponentTest, TheLeadOfAMemberIsThatOfTheWeakestCutThatMovesIt) {
   see(testing::SyntheticShape::kYard, 4);
   join(0, 1, 7);

@@ -245,6 +245,7 @@ class Settling {
       out_.decisions[i] = decide(*out_.measurements[i], usual, options_.decision);
       if (!out_.decisions[i].accepted()) worst_first.push_back(i);
     }
+    if (worst_first.empty()) return {};
     if (const Cut* contradicted = most_contradicted()) return smaller_side(*contradicted, members);
     std::stable_sort(worst_first.begin(), worst_first.end(), [&](std::size_t x, std::size_t y) {
       return out_.decisions[x].probability < out_.decisions[y].probability;
@@ -270,7 +271,9 @@ class Settling {
   const Cut* most_contradicted() const {
     const Cut* worst = nullptr;
     for (const Cut& cut : cuts_) {
-      if (cut.support >= 0) continue;
+      const bool fails =
+          std::any_of(cut.moved.begin(), cut.moved.end(), [&](std::size_t i) { return !out_.decisions[i].accepted(); });
+      if (cut.support >= 0 || !fails) continue;
       const bool is_worse = worst == nullptr || cut.support < worst->support ||
                             (cut.support == worst->support && cut.moved.size() > worst->moved.size());
       if (is_worse) worst = &cut;
