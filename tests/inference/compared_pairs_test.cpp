@@ -110,18 +110,6 @@ TEST_F(ComparedPairsTest, AFitOfWhatHardlyOverlapsCountsLittleForOrAgainst) {
   EXPECT_LT(says(telling / 2, -1), says(telling / 2, 0));
 }
 
-TEST_F(ComparedPairsTest, TheLogOddsOfWhatAgreesAreThoseWithTheAgreement) {
-  world_.add(0, 3, {world_.hypothesis(0, 3, -1)});
-  world_.add(1, 3, {world_.aside(1, 3, -1, 0.5 * kSame_m)});
-  const PairGraph graph = world_.graph();
-  const auto of = [&](std::size_t a) {
-    return graph.agreement(a, 3, Eigen::Isometry3d::Identity(), world_.T_target_source(a, 3));
-  };
-  EXPECT_NEAR(of(0).log_odds, options_.log_poses - 1, 1e-9);
-  EXPECT_NEAR(of(1).log_odds, options_.log_poses - 1 - options_.log_spread * std::log(4), 0.1);
-  EXPECT_EQ(of(2).hypothesis, nullptr) << "not compared";
-}
-
 // Two of them by chance at one place of e^3 is less likely than either being right.
 TEST_F(ComparedPairsTest, WeakHypothesesThatAgreeAreWorthMoreThanTheirSum) {
   world_.add(0, 3, {world_.hypothesis(0, 3, -1)});

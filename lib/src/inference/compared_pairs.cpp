@@ -79,19 +79,10 @@ Agreement PairGraph::agreement(const ComparedPair& pair, const Eigen::Isometry3d
     if (best.hypothesis != nullptr && says <= best.support) continue;
     best.support = says;
     best.hypothesis = &h;
-    best.log_odds = log_odds;
     const double missed = h.implied ? std::exp(log_missed(h)) : 1;
     best.pull = (1 - missed * std::exp(-says)) * options_.log_spread / (beyond_m * beyond_m);
   }
   return best;
-}
-
-Agreement PairGraph::agreement(std::size_t a, std::size_t b, const Eigen::Isometry3d& T_a,
-                               const Eigen::Isometry3d& T_b) const {
-  const auto& of_a = pairs_of(a);
-  const auto found =
-      std::find_if(of_a.begin(), of_a.end(), [&](std::size_t k) { return pairs_[k].a == a && pairs_[k].b == b; });
-  return found == of_a.end() ? Agreement{} : agreement(pairs_[*found], T_a, T_b);
 }
 
 double PairGraph::constant_without(const std::vector<std::size_t>& pairs) const {

@@ -41,7 +41,6 @@ struct Agreement {
   /// is wrong.
   double against_twins = 0;
   const PoseHypothesis* hypothesis = nullptr;  ///< that says most; none: none agrees
-  double log_odds = 0;                         ///< that it is right, as it agrees with the poses so closely
   double pull = 0;                             ///< [1/m^2] with which it draws the poses to its own
 };
 
@@ -106,9 +105,6 @@ class PairGraph {
   /// @param taught_by_others  the set's constant by what poses at a twin would not have taught
   Agreement agreement(const ComparedPair& pair, const Eigen::Isometry3d& T_a, const Eigen::Isometry3d& T_b,
                       double taught_by_others = std::numeric_limits<double>::infinity()) const;
-
-  /// The same of the pair of two scans; no hypothesis where they have none.
-  Agreement agreement(std::size_t a, std::size_t b, const Eigen::Isometry3d& T_a, const Eigen::Isometry3d& T_b) const;
 
   /// The set's constant as it would be without these pairs, ascending; infinite where they are too few to matter. Cost:
   /// all hypotheses that taught it.

@@ -127,13 +127,15 @@ PairGraph HypothesisSet::graph(const std::vector<bool>& open, const InferenceOpt
 }
 
 std::vector<std::pair<std::size_t, std::size_t>> HypothesisSet::without_unlikely(
-    std::vector<std::pair<std::size_t, std::size_t>> pairs, const PairGraph& graph,
+    std::vector<std::pair<std::size_t, std::size_t>> pairs,
     const std::vector<Eigen::Isometry3d>& T_reference_scan) const {
   const auto stays = [&](const std::pair<std::size_t, std::size_t>& pair) {
-    if (!pairs_.contains(pair)) return true;
-    const auto [a, b] = pair;
-    const Agreement says = graph.agreement(a, b, T_reference_scan[a], T_reference_scan[b]);
-    return says.hypothesis != nullptr && says.log_odds > 0;
+    const auto compared = pairs_.find(pair);
+    if (compared == pairs_.end()) return true;
+    const Eigen::Isometry3d T_a_b = T_reference_scan[pair.first].inverse() * T_reference_scan[pair.second];
+    return std::any_of(compared->second.begin(), compared->second.end(), [&](const LinkHypothesis& h) {
+      return h.log_odds > 0 && rms_displacement(T_a_b.inverse() * h.T_a_b, moments_[pair.second]) < same_m();
+    });
   };
   std::vector<std::size_t> group(moments_.size());
   std::iota(group.begin(), group.end(), std::size_t{0});

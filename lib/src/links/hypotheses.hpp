@@ -60,14 +60,13 @@ class HypothesisSet {
   /// The pairs of the scans with `open`.
   PairGraph graph(const std::vector<bool>& open, const InferenceOptions& options) const;
 
-  /// Without pairs that were compared and of which no hypothesis leads to their pose that is likelier right than wrong,
-  /// as closely as it agrees (Agreement::log_odds), as long as other pairs connect both scans. Such a pair shares
-  /// little, and what its surfaces lie next to may be a wall's other face: a scan of the simulated interiors was drawn
-  /// off by 0.1 m, half a street by 1.8 coarse voxels from links that were sure. Pairs that were not compared stay.
-  /// @param graph             of these hypotheses
+  /// Without pairs that were compared and of which no hypothesis that is likelier right than wrong leads to their pose,
+  /// as long as other pairs connect both scans. Such a pair shares little, and what its surfaces lie next to may be a
+  /// wall's other face: a scan of the simulated interiors was drawn off by 0.1 m, half a street by 1.8 coarse voxels
+  /// from links that were sure. Pairs that were not compared stay.
   /// @param T_reference_scan  of every scan that a pair names
   std::vector<std::pair<std::size_t, std::size_t>> without_unlikely(
-      std::vector<std::pair<std::size_t, std::size_t>> pairs, const PairGraph& graph,
+      std::vector<std::pair<std::size_t, std::size_t>> pairs,
       const std::vector<Eigen::Isometry3d>& T_reference_scan) const;
 
  private:

@@ -84,7 +84,7 @@ class Settling {
   void adjust() {
     std::vector<Eigen::Isometry3d> T = poses();
     out_.pairs = hypotheses_.without_unlikely(
-        overlapping_pairs(scans_, T, membership(), kMinLinkOverlap, context_.num_threads), graph_, T);
+        overlapping_pairs(scans_, T, membership(), kMinLinkOverlap, context_.num_threads), T);
     out_.adjustment = adjust_once(steps_, scans_, out_.pairs, out_.component.reference, resolutions_,
                                   options_.adjustment, options_.lp, context_, T, poses_are_);
     poses_are_ = StartingPoses::kAdjusted;
