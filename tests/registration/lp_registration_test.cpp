@@ -201,5 +201,27 @@ TEST(LpRegistrationOptions, RejectEachFieldOutOfRangeByName) {
   EXPECT_TRUE(has(message([](O& o) { o.lp.tie_breaking = 1; }), "tie_breaking"));
 }
 
+TEST(LpRegistration, MatchesThatAreTakenOutAreNotFittedTo) {
+  const Case c = make_case({}, 3);
+  const Cloud& source = c.scene.scans[1];
+  const ScanPyramid target(c.scene.scans[0], c.scene.spacing_m / 2, 3);
+  const LpRegistrationOptions options = gates(c.scene.spacing_m);
+  std::size_t num_asked = 0;
+  const auto none = [&](const Isometry3d& T_target_source, Correspondences& matches) {
+    EXPECT_TRUE(T_target_source.isApprox(c.start));
+    EXPECT_GT(matches.size(), 100u);
+    matches.clear();
+    ++num_asked;
+  };
+  const RegistrationResult stopped = register_lp(source, target, c.start, options, none);
+  EXPECT_EQ(stopped.termination, Termination::kTooFewCorrespondences);
+  EXPECT_EQ(num_asked, 1u);
+  const auto all = [&](const Isometry3d&, Correspondences&) { ++num_asked; };
+  const RegistrationResult asked = register_lp(source, target, c.start, options, all),
+                           plain = register_lp(source, target, c.start, options);
+  EXPECT_GT(num_asked, 2u);
+  EXPECT_TRUE(asked.T_target_source.matrix() == plain.T_target_source.matrix());
+}
+
 }  // namespace
 }  // namespace tcm_icp

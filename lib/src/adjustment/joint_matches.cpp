@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "core/memory_budget.hpp"
+#include "scans/matched_sides.hpp"
 #include "tcm_icp/core/parallel.hpp"
 #include "tcm_icp/registration/match_precision.hpp"
 #include "tcm_icp/visibility/sight.hpp"
@@ -15,8 +16,6 @@ namespace {
 // up to this many times its whole sample, as far as no part is less than a third.
 constexpr std::size_t kSamplesOfScan = 3, kMostParts = 3;
 constexpr double kNormalAngle = std::numbers::pi / 6;
-// Of a link's matches, by noise, thin things and what moved. Beyond it those of opposite sides are not used.
-constexpr double kMaxOpposedShare = 0.12;
 
 std::size_t parts_for(std::size_t num_neighbors) {
   return std::clamp<std::size_t>((num_neighbors + kSamplesOfScan - 1) / kSamplesOfScan, 1, kMostParts);
@@ -29,24 +28,6 @@ Cloud part_of(const Cloud& cloud, std::size_t which, std::size_t num_parts) {
     out.normals.push_back(cloud.normals[i]);
   }
   return out;
-}
-
-// A thin wall's other face is near, and its normal an axis of the same direction. A few such matches are chance, and
-// dropping them would bend the pose.
-void drop_opposed(const Sight& target, const Sight& source, const Eigen::Isometry3d& T_target_source,
-                  Correspondences& matches) {
-  if (!target.knows_sides() || !source.knows_sides()) return;
-  const Eigen::Isometry3d T_source_target = T_target_source.inverse();
-  std::vector<int> agreement;  // 1: the same side, -1: opposite ones, 0: not known
-  for (const Correspondence& m : matches) {
-    agreement.push_back(target.side(m.target, m.normal) *
-                        source.side(T_source_target * m.source, T_source_target.linear() * m.normal));
-  }
-  const auto opposed = std::count(agreement.begin(), agreement.end(), -1);
-  const auto known = opposed + std::count(agreement.begin(), agreement.end(), 1);
-  if (static_cast<double>(opposed) <= kMaxOpposedShare * static_cast<double>(known)) return;
-  std::size_t i = 0;
-  std::erase_if(matches, [&](const Correspondence&) { return agreement[i++] < 0; });
 }
 
 }  // namespace

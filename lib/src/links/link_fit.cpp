@@ -4,6 +4,7 @@
 
 #include "core/acceptance.hpp"
 #include "links/measure_link.hpp"
+#include "scans/matched_sides.hpp"
 #include "scans/scan_sight.hpp"
 #include "tcm_icp/core/even_sample.hpp"
 #include "tcm_icp/registration/alignment_objective.hpp"
@@ -79,7 +80,10 @@ std::optional<LinkHypothesis> fit_candidate(const PreparedScan& target, const Pr
   lp.gate_shrink = kDistanceShrink;
   lp.max_iterations = kMaxLpSolves;
   const RegistrationResult fit =
-      register_lp(even_sample(source.coarse_sample, kFitPoints), target.pyramid, candidate.T_target_source, lp);
+      register_lp(even_sample(source.coarse_sample, kFitPoints), target.pyramid, candidate.T_target_source, lp,
+                  [&](const Eigen::Isometry3d& T_target_source, Correspondences& matches) {
+                    drop_opposed(target.sight, source.sight, T_target_source, matches);
+                  });
   if (!fit.usable()) return std::nullopt;
   return LinkHypothesis{fit.T_target_source, candidate, measure_link(target, source, fit.T_target_source)};
 }

@@ -71,7 +71,7 @@ void LpRegistrationOptions::validate() const {
 }
 
 RegistrationResult register_lp(const Cloud& source, const ScanPyramid& target, const Eigen::Isometry3d& T_init,
-                               const LpRegistrationOptions& options) {
+                               const LpRegistrationOptions& options, const MatchSelection& select) {
   options.validate();
   if (!source.empty() && !source.has_normals()) throw InvalidInput("register_lp needs a source with normals");
   RegistrationResult result;
@@ -85,8 +85,9 @@ RegistrationResult register_lp(const Cloud& source, const ScanPyramid& target, c
     const double openness = log_range > 0 ? std::log(gate / options.final_gate_m) / log_range : 0;
     const double angle =
         options.final_normal_angle_deg + openness * (options.initial_normal_angle_deg - options.final_normal_angle_deg);
-    const auto matches =
+    auto matches =
         find_correspondences(source, result.T_target_source, target.level_for(gate / 3), {gate, radians(angle)});
+    if (select) select(result.T_target_source, matches);
     result.num_correspondences = matches.size();
     if (static_cast<int>(matches.size()) < options.min_correspondences) {
       result.termination = Termination::kTooFewCorrespondences;

@@ -17,6 +17,8 @@ enum class LpFormulation {
   kLeastSquares,  ///< sum (n . (p' - q))^2 in the 6 parameters, without the simplex
 };
 
+using MatchSelection = std::function<void(const Eigen::Isometry3d& T_target_source, Correspondences& matches)>;
+
 struct LpRegistrationOptions {
   LpFormulation formulation = LpFormulation::kPointToPlane;
   double initial_gate_m = 0;             ///< [m] > 0; correspondences may be this far apart at first
@@ -45,7 +47,8 @@ Termination registration_step(LpFormulation formulation, const Correspondences& 
 /// Registers `source` to `target` from T_init: correspondences within a gate on distance and normal that shrinks from
 /// initial to final, an L1 step on each set, until steps are small at the final gate.
 /// The target's pyramid level follows the gate, so the first steps are cheap and blind to detail.
+/// @param select  takes out matches that are none, at the pose they were found at; none: all are used
 RegistrationResult register_lp(const Cloud& source, const ScanPyramid& target, const Eigen::Isometry3d& T_init,
-                               const LpRegistrationOptions& options);
+                               const LpRegistrationOptions& options, const MatchSelection& select = {});
 
 }  // namespace tcm_icp

@@ -1,0 +1,18 @@
+#pragma once
+// Matches of a wall's two faces, which are no matches.
+
+#include <Eigen/Geometry>
+
+#include "tcm_icp/registration/correspondences.hpp"
+#include "tcm_icp/visibility/sight.hpp"
+
+namespace tcm_icp {
+
+/// Drops matches of surfaces that the two scans saw from opposite sides, where they are more than a few and both know
+/// sides: a thin wall's other face is near, and its normal an axis of the same direction. A few are chance, and
+/// dropping them would bend the pose. Cost: the matches.
+/// @param matches  in the target's frame, with the source moved by T_target_source
+void drop_opposed(const Sight& target, const Sight& source, const Eigen::Isometry3d& T_target_source,
+                  Correspondences& matches);
+
+}  // namespace tcm_icp
