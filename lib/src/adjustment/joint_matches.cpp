@@ -7,7 +7,6 @@
 #include "scans/matched_sides.hpp"
 #include "tcm_icp/core/parallel.hpp"
 #include "tcm_icp/registration/match_precision.hpp"
-#include "tcm_icp/visibility/sight.hpp"
 
 namespace tcm_icp {
 namespace {

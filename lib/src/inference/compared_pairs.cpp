@@ -70,17 +70,18 @@ Agreement PairGraph::agreement(const ComparedPair& pair, const Eigen::Isometry3d
     const double beyond_m = std::max(apart_m, same_m_ / 8);
     const double near = options_.log_spread * std::log(8 * beyond_m / same_m_);
     const double chance = options_.log_poses - (h.implied ? options_.log_implied : 0) - near;
-    const double log_odds = std::min(h.log_odds, options_.most_log_odds) + chance;
-    const double says = h.implied ? says_implied(h, log_odds) : std::log1p(std::exp(log_odds));
-    const double says_of_twins =
-        says_implied(h, std::min(h.log_odds - std::max(0.0, h.taught - taught_by_others), options_.most_log_odds) +
-                            options_.log_poses - options_.log_implied - near);
+    const double odds = std::exp(std::min(h.log_odds, options_.most_log_odds) + chance);
+    const Telling implied = telling(h), found = h.implied ? implied : Telling{};
+    const double says = found.says(odds);
+    const double says_of_twins = implied.says(
+        std::exp(std::min(h.log_odds - std::max(0.0, h.taught - taught_by_others), options_.most_log_odds) +
+                 options_.log_poses - options_.log_implied - near));
     best.against_twins = best.hypothesis == nullptr ? says_of_twins : std::max(best.against_twins, says_of_twins);
     if (best.hypothesis != nullptr && says <= best.support) continue;
     best.support = says;
     best.hypothesis = &h;
-    const double missed = h.implied ? std::exp(log_missed(h)) : 1;
-    best.pull = (1 - missed * std::exp(-says)) * options_.log_spread / (beyond_m * beyond_m);
+    const double shown = found.shows * odds;
+    best.pull = shown / (found.missed + shown) * options_.log_spread / (beyond_m * beyond_m);
   }
   return best;
 }
@@ -103,20 +104,14 @@ double PairGraph::constant_without(const std::vector<std::size_t>& pairs) const 
 }
 
 double PairGraph::most_support(const PoseHypothesis& h) const {
-  const double log_odds = std::min(h.log_odds, options_.most_log_odds) + options_.log_poses;
-  return h.implied ? says_implied(h, log_odds - options_.log_implied) : std::log1p(std::exp(log_odds));
+  const double chance = options_.log_poses - (h.implied ? options_.log_implied : 0);
+  return (h.implied ? telling(h) : Telling{}).says(std::exp(std::min(h.log_odds, options_.most_log_odds) + chance));
 }
 
-// Of the right pose, of which so little overlaps: that it shows nothing.
-double PairGraph::log_missed(const PoseHypothesis& h) const {
-  return options_.log_missed * std::min(1.0, h.overlap / options_.telling_overlap);
-}
-
-// The right pose shows nothing, or else something that is likelier there by its odds.
-double PairGraph::says_implied(const PoseHypothesis& h, double log_odds) const {
-  const double missed = log_missed(h);
-  const double shows = options_.log_missed == 0 ? 1 : std::expm1(missed) / std::expm1(options_.log_missed);
-  return std::log(std::exp(missed) + shows * std::exp(log_odds));
+PairGraph::Telling PairGraph::telling(const PoseHypothesis& h) const {
+  const double log_missed = options_.log_missed * std::min(1.0, h.overlap / options_.telling_overlap);
+  if (options_.log_missed == 0) return {1, 1};
+  return {std::exp(log_missed), std::expm1(log_missed) / std::expm1(options_.log_missed)};
 }
 
 double PairGraph::support_of(std::size_t scan, const Eigen::Isometry3d& T, const Component& component) const {

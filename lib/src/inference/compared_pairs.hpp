@@ -126,8 +126,12 @@ class PairGraph {
                  std::vector<Eigen::Isometry3d>& known) const;
 
  private:
-  double log_missed(const PoseHypothesis& hypothesis) const;
-  double says_implied(const PoseHypothesis& hypothesis, double log_odds) const;
+  // Of a hypothesis at the right pose: it shows nothing, or else something that is likelier there by its odds.
+  struct Telling {
+    double missed = 1, shows = 1;  // as a search has it that may have missed the pose
+    double says(double odds) const { return std::log(missed + shows * odds); }
+  };
+  Telling telling(const PoseHypothesis& implied) const;  // the less, the less overlaps
 
   std::vector<ComparedPair> pairs_;
   std::vector<PointMoments> moments_;

@@ -1,6 +1,8 @@
 #pragma once
 // Registration by linear programs: nearest neighbours, one L1 fit by the simplex method, and again.
 
+#include <functional>
+
 #include "tcm_icp/core/run_context.hpp"
 #include "tcm_icp/registration/correspondences.hpp"
 #include "tcm_icp/registration/l1_fit.hpp"
@@ -17,6 +19,7 @@ enum class LpFormulation {
   kLeastSquares,  ///< sum (n . (p' - q))^2 in the 6 parameters, without the simplex
 };
 
+/// Takes out of the matches of a pose those that are none.
 using MatchSelection = std::function<void(const Eigen::Isometry3d& T_target_source, Correspondences& matches)>;
 
 struct LpRegistrationOptions {
