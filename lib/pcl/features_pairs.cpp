@@ -12,6 +12,7 @@
 #include "pair_set.hpp"
 #include "pcl_icp.hpp"
 #include "pcl_methods.hpp"
+#include "pcl_search.hpp"
 #include "tcm_icp/baselines/principal_axes.hpp"
 #include "tcm_icp/baselines/spanning_tree.hpp"
 #include "tcm_icp/core/error.hpp"
@@ -21,17 +22,20 @@ namespace tcm_icp {
 namespace {
 
 using PclSurface = pcl::PointCloud<pcl::PointNormal>;
+using Search = PclSearch<pcl::PointNormal>;
 using PclFeatures = pcl::PointCloud<pcl::FPFHSignature33>;
 
 // Voxels for the features in point spacings, coarse ones first, as far as they leave a scan so many points.
 constexpr double kMultiples[] = {32, 16, 8, 4};
 constexpr std::size_t kLeastPoints = 1000, kMostPoints = 10'000;
+constexpr double kConsensusReach = 2.5;  // voxels
 constexpr int kConsensusIterations = 50'000, kIcpIterations = 50;
 
 /// Points in units of the voxel, each with its normal and features.
 struct Described {
   PclSurface::Ptr points = pcl::make_shared<PclSurface>();
   PclFeatures::Ptr features = pcl::make_shared<PclFeatures>();
+  std::shared_ptr<const NeighborIndex> index;
 };
 
 Described describe(const Points& scan, double voxel_m) {
@@ -42,6 +46,7 @@ Described describe(const Points& scan, double voxel_m) {
   pcl::compute3DCentroid(*out.points, middle);
   normals.setViewPoint(middle.x(), middle.y(), middle.z());
   normals.setInputCloud(out.points);
+  normals.setSearchMethod(pcl::make_shared<Search>(index_of(*out.points)));
   normals.setRadiusSearch(2);
   normals.compute(*out.points);
   pcl::Indices kept;
@@ -49,6 +54,8 @@ Described describe(const Points& scan, double voxel_m) {
   pcl::FPFHEstimation<pcl::PointNormal, pcl::PointNormal, pcl::FPFHSignature33> features;
   features.setInputCloud(out.points);
   features.setInputNormals(out.points);
+  out.index = index_of(*out.points);
+  features.setSearchMethod(pcl::make_shared<Search>(out.index));
   features.setRadiusSearch(5);
   features.compute(*out.features);
   return out;
@@ -65,7 +72,8 @@ bool find_consensus(const Described& source, const Described& target, double vox
   consensus.setNumberOfSamples(3);
   consensus.setCorrespondenceRandomness(5);
   consensus.setSimilarityThreshold(0.9F);
-  consensus.setMaxCorrespondenceDistance(2.5);
+  consensus.setMaxCorrespondenceDistance(kConsensusReach);
+  consensus.setSearchMethodTarget(pcl::make_shared<Search>(target.index, kConsensusReach), true);
   consensus.setInlierFraction(0.1F);  // the tutorial's 0.25 is for an object that is wholly in the scene
   PclSurface moved;
   consensus.align(moved);
@@ -112,7 +120,8 @@ PairFits fit_at(double voxel_m, const PairInput& input, const PairSet& fine, con
       fit.T_target_source =
           coarse_alignment_by_axes(set.points(fit.target), set.index(fit.target), set.points(fit.source));
     }
-    icp_stage(set.cloud(fit.source), set.cloud(fit.target), voxel_m, {kPartnerVoxels, kIcpIterations}, fit);
+    icp_stage(set.in_voxels(fit.source).cloud, set.in_voxels(fit.target), voxel_m, {kPartnerVoxels, kIcpIterations},
+              fit);
     fit.converged = fit.converged && found;
     set.measure(fit);
     if (!found) fit.share = 0;  // taken only where nothing else holds a scan
@@ -123,7 +132,7 @@ PairFits fit_at(double voxel_m, const PairInput& input, const PairSet& fine, con
     const bool found = fit.share > 0;
     for (const double reach : {voxel_m / fine.voxel_size_m(), kIcpReachVoxels, kPartnerVoxels}) {
       const IcpStage stage{reach, kIcpIterations};
-      icp_stage(fine.cloud(fit.source), fine.cloud(fit.target), fine.voxel_size_m(), stage, fit);
+      icp_stage(fine.in_voxels(fit.source).cloud, fine.in_voxels(fit.target), fine.voxel_size_m(), stage, fit);
     }
     fit.converged = fit.converged && found;
   }

@@ -23,7 +23,8 @@ PairFits icp_pairs(const PairInput& input, const RunContext& context) {
     // Besl and McKay take all neighbours; what one scan alone has seen then pulls the pose away, so those nearby
     // follow.
     for (const double reach : {0.0, kIcpReachVoxels, kPartnerVoxels}) {
-      icp_stage(set.cloud(fit.source), set.cloud(fit.target), set.voxel_size_m(), {reach, kMaxIterations}, fit);
+      icp_stage(set.in_voxels(fit.source).cloud, set.in_voxels(fit.target), set.voxel_size_m(), {reach, kMaxIterations},
+                fit);
     }
     set.measure(fit);
     out.pairs.push_back(fit);

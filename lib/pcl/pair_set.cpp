@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "pcl_search.hpp"
 #include "tcm_icp/baselines/principal_axes.hpp"
 
 namespace tcm_icp {
@@ -9,7 +10,8 @@ namespace tcm_icp {
 PairSet::PairSet(const std::vector<Points>& scans, double voxel_size_m) : scans_(scans), voxel_size_m_(voxel_size_m) {
   for (const auto& points : scans_) {
     indices_.emplace_back(points);
-    clouds_.push_back(to_pcl(points, voxel_size_m));
+    const PclCloud::Ptr cloud = to_pcl(points, voxel_size_m);
+    in_voxels_.push_back({cloud, index_of(*cloud)});
   }
 }
 

@@ -22,7 +22,8 @@ class PairSet {
   double voxel_size_m() const { return voxel_size_m_; }
   const Points& points(std::size_t scan) const { return scans_[scan]; }
   const NeighborIndex& index(std::size_t scan) const { return indices_[scan]; }
-  const PclCloud::Ptr& cloud(std::size_t scan) const { return clouds_[scan]; }
+  /// In voxels.
+  const PclTarget& in_voxels(std::size_t scan) const { return in_voxels_[scan]; }
 
   /// Mean distance and share of a fit.
   void measure(PairFit& fit) const;
@@ -31,7 +32,7 @@ class PairSet {
   const std::vector<Points>& scans_;
   double voxel_size_m_;
   std::vector<NeighborIndex> indices_;
-  std::vector<PclCloud::Ptr> clouds_;
+  std::vector<PclTarget> in_voxels_;
 };
 
 /// Calls `fit_pair` for every pair, the smaller scan being the source, and reports progress. @throws Cancelled

@@ -2,6 +2,7 @@
 
 #include <pcl/registration/icp.h>
 
+#include "pcl_search.hpp"
 #include "tcm_icp/core/rigid_transform.hpp"
 
 namespace tcm_icp {
@@ -44,11 +45,13 @@ Eigen::Matrix4f to_pcl(const Eigen::Isometry3d& T, double unit_m) {
   return scaled.matrix().cast<float>();
 }
 
-void icp_stage(const PclCloud::Ptr& source, const PclCloud::Ptr& target, double unit_m, const IcpStage& stage,
+void icp_stage(const PclCloud::Ptr& source, const PclTarget& target, double unit_m, const IcpStage& stage,
                PairFit& fit) {
   Icp icp;
   icp.setInputSource(source);
-  icp.setInputTarget(target);
+  icp.setInputTarget(target.cloud);
+  const double reach = stage.reach_units > 0 ? stage.reach_units : std::numeric_limits<double>::infinity();
+  icp.setSearchMethodTarget(pcl::make_shared<PclSearch<pcl::PointXYZ>>(target.index, reach), true);
   icp.setMaximumIterations(stage.max_iterations);
   icp.setEuclideanFitnessEpsilon(kRelativeChange);
   if (stage.reach_units > 0) icp.setMaxCorrespondenceDistance(stage.reach_units);
