@@ -5,29 +5,45 @@
 #include <pcl/filters/filter.h>
 #include <pcl/filters/voxel_grid.h>
 #include <pcl/io/ply_io.h>
-#include <pcl/kdtree/kdtree_flann.h>
 #include <pcl/registration/icp.h>
 #include <pcl/registration/sample_consensus_prerejective.h>
-#include <pcl/search/kdtree.h>
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
+#include "pcl_search.hpp"
 #include "tcm_icp/core/rigid_transform.hpp"
 
 namespace tcm_icp {
 namespace {
 
-/// How many points of `points`, moved by T, have a neighbour within `reach_m` in the tree.
-std::size_t count_near(const pcl::PointCloud<pcl::PointNormal>& points, const Eigen::Isometry3d& T,
-                       const pcl::KdTreeFLANN<pcl::PointNormal>& tree, double reach_m) {
-  const Eigen::Isometry3f moved = T.cast<float>();
-  pcl::Indices index(1);
-  std::vector<float> squared_distance(1);
-  return static_cast<std::size_t>(std::count_if(points.begin(), points.end(), [&](pcl::PointNormal p) {
-    p.getVector3fMap() = moved * p.getVector3fMap();
-    return tree.nearestKSearch(p, 1, index, squared_distance) > 0 && squared_distance[0] <= reach_m * reach_m;
+using Search = PclSearch<pcl::PointNormal>;
+
+/// How many points of `source`, moved by T, have a neighbour within `reach_m` in the target.
+std::size_t count_near(const PclSurface& source, const PclSurface& target, const Eigen::Isometry3d& T, double reach_m) {
+  const auto& points = *source.points;
+  return static_cast<std::size_t>(std::count_if(points.begin(), points.end(), [&](const pcl::PointNormal& p) {
+    return target.index->any_within(T * p.getVector3fMap().cast<double>(), reach_m);
   }));
+}
+
+/// With normals within so far.
+PclSurface with_normals(const PclCloud& points, double radius_m) {
+  PclSurface out{pcl::make_shared<pcl::PointCloud<pcl::PointNormal>>(), nullptr};
+  pcl::copyPointCloud(*points, *out.points);
+  pcl::NormalEstimation<pcl::PointNormal, pcl::PointNormal> normals;
+  Eigen::Vector4f middle;
+  pcl::compute3DCentroid(*out.points, middle);
+  normals.setViewPoint(middle.x(), middle.y(), middle.z());
+  normals.setInputCloud(out.points);
+  normals.setSearchMethod(pcl::make_shared<Search>(index_of(*out.points)));
+  normals.setRadiusSearch(radius_m);
+  normals.compute(*out.points);
+  pcl::Indices kept;
+  pcl::removeNaNNormalsFromPointCloud(*out.points, *out.points, kept);
+  out.index = index_of(*out.points);
+  return out;
 }
 
 }  // namespace
@@ -41,12 +57,13 @@ PclCloud pcl_read(const std::string& file) {
 }
 
 double pcl_spacing(const PclCloud& scan) {
-  pcl::KdTreeFLANN<pcl::PointXYZ> tree;
-  tree.setInputCloud(scan);
-  pcl::Indices indices(2);
-  std::vector<float> squared(2), distances;
-  for (const auto& p : *scan)
-    if (tree.nearestKSearch(p, 2, indices, squared) == 2) distances.push_back(std::sqrt(squared[1]));
+  const auto index = index_of(*scan);
+  std::vector<Neighbor> two;
+  std::vector<double> distances;
+  for (const auto& p : *scan) {
+    index->nearest_k({p.x, p.y, p.z}, 2, two);
+    if (two.size() == 2) distances.push_back(std::sqrt(two[1].squared_distance_m2));
+  }
   if (distances.empty()) throw std::runtime_error("a scan has fewer than two points");
   const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
   std::nth_element(distances.begin(), middle, distances.end());
@@ -64,25 +81,15 @@ PclCloud pcl_voxel_sample(const PclCloud& scan, double voxel_m) {
 }
 
 PclSurface pcl_surface(const PclCloud& scan, double voxel_m) {
-  auto surface = pcl::make_shared<pcl::PointCloud<pcl::PointNormal>>();
-  pcl::copyPointCloud(*pcl_voxel_sample(scan, voxel_m), *surface);
-  pcl::NormalEstimation<pcl::PointNormal, pcl::PointNormal> normals;
-  Eigen::Vector4f middle;
-  pcl::compute3DCentroid(*surface, middle);
-  normals.setViewPoint(middle.x(), middle.y(), middle.z());
-  normals.setInputCloud(surface);
-  normals.setRadiusSearch(2 * voxel_m);
-  normals.compute(*surface);
-  pcl::Indices kept;
-  pcl::removeNaNNormalsFromPointCloud(*surface, *surface, kept);
-  return surface;
+  return with_normals(pcl_voxel_sample(scan, voxel_m), 2 * voxel_m);
 }
 
 PclPrepared pcl_prepare(const PclCloud& scan, double voxel_m) {
   PclPrepared out{pcl_surface(scan, voxel_m), pcl::make_shared<pcl::PointCloud<pcl::FPFHSignature33>>()};
   pcl::FPFHEstimation<pcl::PointNormal, pcl::PointNormal, pcl::FPFHSignature33> features;
-  features.setInputCloud(out.points);
-  features.setInputNormals(out.points);
+  features.setInputCloud(out.surface.points);
+  features.setInputNormals(out.surface.points);
+  features.setSearchMethod(pcl::make_shared<Search>(out.surface.index));
   features.setRadiusSearch(5 * voxel_m);
   features.compute(*out.features);
   return out;
@@ -91,8 +98,9 @@ PclPrepared pcl_prepare(const PclCloud& scan, double voxel_m) {
 Eigen::Isometry3d pcl_refine(const PclSurface& source, const PclSurface& target, const Eigen::Isometry3d& T_init,
                              double reach_m) {
   pcl::IterativeClosestPointWithNormals<pcl::PointNormal, pcl::PointNormal> icp;
-  icp.setInputSource(source);
-  icp.setInputTarget(target);
+  icp.setInputSource(source.points);
+  icp.setInputTarget(target.points);
+  icp.setSearchMethodTarget(pcl::make_shared<Search>(target.index, reach_m), true);
   icp.setMaxCorrespondenceDistance(reach_m);
   icp.setMaximumIterations(50);
   icp.setTransformationEpsilon(1e-8);
@@ -107,17 +115,19 @@ Eigen::Isometry3d pcl_refine(const PclSurface& source, const PclSurface& target,
 
 PclLink pcl_align_pair(const PclPrepared& source, const PclPrepared& target, double voxel_m) {
   PclLink link;
+  const double reach_m = 2.5 * voxel_m;
   pcl::PointCloud<pcl::PointNormal> moved;
   pcl::SampleConsensusPrerejective<pcl::PointNormal, pcl::PointNormal, pcl::FPFHSignature33> coarse;
-  coarse.setInputSource(source.points);
+  coarse.setInputSource(source.surface.points);
   coarse.setSourceFeatures(source.features);
-  coarse.setInputTarget(target.points);
+  coarse.setInputTarget(target.surface.points);
+  coarse.setSearchMethodTarget(pcl::make_shared<Search>(target.surface.index, reach_m), true);
   coarse.setTargetFeatures(target.features);
   coarse.setMaximumIterations(50000);
   coarse.setNumberOfSamples(3);
   coarse.setCorrespondenceRandomness(5);
   coarse.setSimilarityThreshold(0.9F);
-  coarse.setMaxCorrespondenceDistance(2.5 * voxel_m);
+  coarse.setMaxCorrespondenceDistance(reach_m);
   coarse.setInlierFraction(0.1F);  // the tutorial's 0.25 is for an object that is wholly in the scene
   coarse.align(moved);
   if (!coarse.hasConverged()) return link;
@@ -125,12 +135,11 @@ PclLink pcl_align_pair(const PclPrepared& source, const PclPrepared& target, dou
   Eigen::Isometry3d T_coarse;
   T_coarse.matrix() = coarse.getFinalTransformation().cast<double>();
   T_coarse.linear() = project_onto_so3(T_coarse.linear());
-  link.T_target_source = pcl_refine(source.points, target.points, T_coarse, 1.5 * voxel_m);
+  link.T_target_source = pcl_refine(source.surface, target.surface, T_coarse, 1.5 * voxel_m);
 
-  pcl::KdTreeFLANN<pcl::PointNormal> tree;
-  tree.setInputCloud(target.points);
-  const std::size_t near = count_near(*source.points, link.T_target_source, tree, 1.5 * voxel_m);
-  link.share = static_cast<double>(near) / static_cast<double>(std::min(source.points->size(), target.points->size()));
+  const std::size_t near = count_near(source.surface, target.surface, link.T_target_source, 1.5 * voxel_m);
+  const std::size_t smaller = std::min(source.surface.points->size(), target.surface.points->size());
+  link.share = static_cast<double>(near) / static_cast<double>(smaller);
   return link;
 }
 
