@@ -75,6 +75,11 @@ class PairGraph {
     return same_mean(T * moments_[scan].mean, U * moments_[scan].mean) &&
            rms_displacement(T.inverse() * U, moments_[scan]) < same_m_;
   }
+  /// Whether a fit that starts at one of two poses would end at the other, as far as can be told: the distance at which
+  /// poses begin to be one, a quarter of that at which they are.
+  bool is_fitted(std::size_t scan, const Eigen::Isometry3d& T, const Eigen::Isometry3d& U) const {
+    return rms_displacement(T.inverse() * U, moments_[scan]) < same_m_ / 4;
+  }
   const Eigen::Vector3d& mean_of(std::size_t scan) const { return moments_[scan].mean; }
   /// Whether the mean of a scan's points lies near enough at two poses for the poses to be one.
   bool same_mean(const Eigen::Vector3d& at_one, const Eigen::Vector3d& at_other) const {

@@ -10,9 +10,31 @@ bool agrees(const PairGraph& graph, std::size_t a, std::size_t b, const Eigen::I
     const ComparedPair& pair = graph.pairs()[k];
     if (pair.a != a || pair.b != b) continue;
     return std::any_of(pair.hypotheses.begin(), pair.hypotheses.end(),
-                       [&](const PoseHypothesis& h) { return graph.same_pose(b, T_a_b, h.T_a_b); });
+                       [&](const PoseHypothesis& h) { return graph.is_fitted(b, T_a_b, h.T_a_b); });
   }
   return false;
+}
+
+// Poses of `scan` that likely hypotheses lead to which agree with where it is, and that a fit tells apart from it: as
+// the other face of a wall is. Each once.
+std::vector<Eigen::Isometry3d> poses_beside(const PairGraph& graph, const Component& component, std::size_t scan) {
+  const Eigen::Isometry3d& T = *component.T_reference_scan[scan];
+  std::vector<Eigen::Isometry3d> known{T};
+  for (const std::size_t k : graph.pairs_of(scan)) {
+    const ComparedPair& pair = graph.pairs()[k];
+    const std::size_t other = pair.a == scan ? pair.b : pair.a;
+    if (!component.has(other)) continue;
+    for (const PoseHypothesis& h : pair.hypotheses) {
+      if (h.log_odds <= 0) continue;
+      const Eigen::Isometry3d T_there =
+          *component.T_reference_scan[other] * (pair.a == scan ? h.T_a_b.inverse() : h.T_a_b);
+      const auto is_fitted = [&](const Eigen::Isometry3d& U) { return graph.is_fitted(scan, U, T_there); };
+      if (!graph.same_pose(scan, T, T_there) || std::any_of(known.begin(), known.end(), is_fitted)) continue;
+      known.push_back(T_there);
+    }
+  }
+  known.erase(known.begin());
+  return known;
 }
 
 }  // namespace
@@ -32,18 +54,27 @@ std::vector<ImpliedPose> implied_poses(
       imply(members[i], members[j], T[members[i]]->inverse() * *T[members[j]]);
     }
   }
+  const auto imply_moved = [&](std::size_t i, const Eigen::Isometry3d& T_moved, std::size_t j) {
+    if (i < j) {
+      imply(i, j, T_moved.inverse() * *T[j]);
+    } else {
+      imply(j, i, T[j]->inverse() * T_moved);
+    }
+  };
+  for (const std::size_t i : members) {
+    for (const Eigen::Isometry3d& T_beside : poses_beside(graph, component, i)) {
+      ++configuration;
+      for (const std::size_t j : members) {
+        if (j != i) imply_moved(i, T_beside, j);
+      }
+    }
+  }
   for (const Cut& cut : cuts) {
     if (!cut.other_motion || cut.lead() >= clear_lead) continue;
     ++configuration;
     for (const std::size_t i : cut.moved) {
-      const Eigen::Isometry3d T_moved = *cut.other_motion * *T[i];
       for (const std::size_t j : members) {
-        if (cut.moves(j)) continue;
-        if (i < j) {
-          imply(i, j, T_moved.inverse() * *T[j]);
-        } else {
-          imply(j, i, T[j]->inverse() * T_moved);
-        }
+        if (!cut.moves(j)) imply_moved(i, *cut.other_motion * *T[i], j);
       }
     }
   }

@@ -39,9 +39,8 @@ HypothesisSet::HypothesisSet(double voxel_m, double noise_m, std::vector<PointMo
 void HypothesisSet::add(std::size_t a, std::size_t b, const std::vector<LinkHypothesis>& hypotheses) {
   std::vector<LinkHypothesis>& known = pairs_[{a, b}];
   for (const LinkHypothesis& h : hypotheses) {
-    // Half the distance at which poses are one to inference: fits to one optimum end nearer than that.
     const auto same = std::find_if(known.begin(), known.end(), [&](const LinkHypothesis& k) {
-      return rms_displacement(k.T_a_b.inverse() * h.T_a_b, moments_[b]) < same_m() / 2;
+      return rms_displacement(k.T_a_b.inverse() * h.T_a_b, moments_[b]) < fitted_m();
     });
     if (same == known.end()) {
       known.push_back(h);

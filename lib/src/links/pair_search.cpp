@@ -349,7 +349,7 @@ struct PairSearch::Impl {
       const Eigen::Isometry3d& T_a_b = poses[k].T_a_b;
       std::vector<Eigen::Isometry3d>& before = implied[{a, b}];
       const bool known = std::any_of(before.begin(), before.end(), [&](const Eigen::Isometry3d& T) {
-        return rms_displacement(T_a_b.inverse() * T, scans[b].moments) < set.same_m();
+        return rms_displacement(T_a_b.inverse() * T, scans[b].moments) < set.fitted_m();
       });
       if (known) continue;
       before.push_back(T_a_b);
