@@ -39,7 +39,7 @@ class ImpliedPosesTest : public ::testing::Test {
 
 TEST_F(ImpliedPosesTest, PairsWithoutAHypothesisThatAgreesHaveThePoseOfTheirScans) {
   world_.add(0, 1, {world_.hypothesis(0, 1, 8)});
-  world_.add(1, 2, {world_.aside(1, 2, 8, 0.5 * kSame_m)});  // agrees
+  world_.add(1, 2, {world_.aside(1, 2, 8, 0.2 * kSame_m)});  // agrees
   world_.add(2, 3, {world_.aside(2, 3, -9, 20 * kSame_m)});  // does not
   const auto found = implied(world_.truth({2, 0, 1, 3}));
   std::vector<std::pair<std::size_t, std::size_t>> pairs;
@@ -64,6 +64,31 @@ TEST_F(ImpliedPosesTest, PosesAtWhichScansCannotOverlapAreLeftOut) {
       implied_poses(world_.graph(), component, weakest_cuts(world_.graph(), component), kClearLead, without_two);
   ASSERT_EQ(found.size(), 3u);
   for (const ImpliedPose& pose : found) EXPECT_TRUE(pose.a != 2 && pose.b != 2);
+}
+
+// 3 lies half a metre aside by one of its pairs, which is one pose to inference and may be a wall's other face: the
+// other pair is asked there, too, and the first where the other put it.
+TEST_F(ImpliedPosesTest, PosesThatAFitTellsApartAreAskedByTheOtherPairs) {
+  world_.add(0, 1, {world_.hypothesis(0, 1, 8)});
+  world_.add(1, 3, {world_.hypothesis(1, 3, 8)});
+  world_.add(0, 3, {world_.aside(0, 3, 3, 0.5 * kSame_m)});
+  const auto found = implied(world_.truth({0, 1, 3}));
+  ASSERT_EQ(found.size(), 3u);
+  EXPECT_EQ(std::pair(found[0].a, found[0].b), std::pair(std::size_t{0}, std::size_t{3}));
+  EXPECT_TRUE(is_near(found[0], 0)) << "no hypothesis leads there";
+  EXPECT_EQ(found[0].configuration, 0u);
+  EXPECT_EQ(std::pair(found[1].a, found[1].b), std::pair(std::size_t{0}, std::size_t{1})) << "where 0 is the other";
+  EXPECT_EQ(std::pair(found[2].a, found[2].b), std::pair(std::size_t{1}, std::size_t{3}));
+  EXPECT_TRUE(is_near(found[2], 0.5 * kSame_m));
+  EXPECT_NE(found[1].configuration, 0u);
+  EXPECT_NE(found[2].configuration, found[1].configuration);
+}
+
+TEST_F(ImpliedPosesTest, UnlikelyHypothesesImplyNothingBeside) {
+  world_.add(0, 1, {world_.hypothesis(0, 1, 8)});
+  world_.add(1, 3, {world_.hypothesis(1, 3, 8)});
+  world_.add(0, 3, {world_.hypothesis(0, 3, 8), world_.aside(0, 3, -1, 0.5 * kSame_m)});
+  EXPECT_TRUE(implied(world_.truth({0, 1, 3})).empty());
 }
 
 // 3 fits as well 7 m aside by one of its pairs: the other is asked there, too.

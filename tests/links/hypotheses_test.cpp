@@ -51,9 +51,12 @@ TEST_F(HypothesisSetTest, AKnownPoseIsNotAddedAgain) {
   const double same_m = set_->same_m();
   EXPECT_DOUBLE_EQ(same_m, 4 * kVoxel_m);
   set_->add(0, 1, {aside(0, 1, 0, 0.5)});
-  set_->add(0, 1, {aside(0, 1, 0.4 * same_m, 0.9), aside(0, 1, 2 * same_m), aside(0, 1, 2.1 * same_m)});
+  EXPECT_DOUBLE_EQ(set_->fitted_m(), kVoxel_m);
+  set_->add(0, 1, {aside(0, 1, 0.2 * same_m, 0.9), aside(0, 1, 2 * same_m), aside(0, 1, 2.2 * same_m)});
   ASSERT_EQ(of(0, 1).size(), 2u);
   EXPECT_EQ(of(0, 1)[0].measurements.evidence.overlap, 0.5) << "it is left as it is";
+  set_->add(0, 1, {aside(0, 1, 0.5 * same_m)});
+  EXPECT_EQ(of(0, 1).size(), 3u) << "one pose to inference, and perhaps a wall's other face";
   set_->add(0, 2, {aside(0, 2, 0)});
   EXPECT_EQ(of(0, 2).size(), 1u) << "of another pair";
 }

@@ -48,10 +48,11 @@ TEST_F(MatchedSides, ThoseSeenFromOneSideStay) {
   EXPECT_EQ(m.size(), 50u);
 }
 
-TEST_F(MatchedSides, AFewAreChance) {
-  Correspondences m = matches(90, 10);
+// Along a corridor few matches hold a scan: of one in fifty depends where it ends.
+TEST_F(MatchedSides, AFewAreDroppedLikeMany) {
+  Correspondences m = matches(98, 2);
   drop_opposed(target_, behind_, T_target_source_, m);
-  EXPECT_EQ(m.size(), 100u);
+  EXPECT_EQ(m.size(), 98u);
 }
 
 TEST_F(MatchedSides, WhereOneScanKnowsNoSidesAllStay) {

@@ -8,9 +8,9 @@
 
 namespace tcm_icp {
 
-/// Drops matches of surfaces that the two scans saw from opposite sides, where they are more than a few and both know
-/// sides: a thin wall's other face is near, and its normal an axis of the same direction. A few are chance, and
-/// dropping them would bend the pose. Cost: the matches.
+/// Drops matches of surfaces that the two scans saw from opposite sides, where both know sides: a thin wall's other
+/// face is near, and its normal an axis of the same direction. Few of them, too: along a corridor few matches hold a
+/// scan. Cost: the matches.
 /// @param matches  in the target's frame, with the source moved by T_target_source
 void drop_opposed(const Sight& target, const Sight& source, const Eigen::Isometry3d& T_target_source,
                   Correspondences& matches);
