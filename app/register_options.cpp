@@ -67,6 +67,14 @@ constexpr Names<MergeOrder, 6> kMergeOrders{"merge-order",
                                               {"overlap", MergeOrder::kOverlap},
                                               {"file", MergeOrder::kFile},
                                               {"random", MergeOrder::kRandom}}}};
+constexpr Names<LeftOut, 7> kLeftOut{"without",
+                                     {{{"nothing", LeftOut::kNothing},
+                                       {"features", LeftOut::kFeatures},
+                                       {"slides", LeftOut::kSlides},
+                                       {"implied", LeftOut::kImpliedPoses},
+                                       {"free-space", LeftOut::kFreeSpace},
+                                       {"twins", LeftOut::kTwins},
+                                       {"constant", LeftOut::kSetConstant}}}};
 constexpr Names<OutlierMethod, 4> kOutlierMethods{"outliers",
                                                   {{{"kmeans", OutlierMethod::kKMeans},
                                                     {"distance", OutlierMethod::kDistance},
@@ -107,7 +115,7 @@ constexpr Names<CloudColour, 2> kColours{"colour", {{{"keep", CloudColour::kKeep
 
 // What the command line holds as text before it becomes an enumeration.
 struct Choices {
-  std::string profile, solver, outliers, refinement, formulation, merge_order, method = "tcm";
+  std::string profile, solver, outliers, refinement, formulation, merge_order, without, method = "tcm";
   std::string voxel = "0", format = kFormats.name(OutputOptions{}.format),
               colour = kColours.name(OutputOptions{}.colour);
   std::string accept_residual = "0", accept_overlap = "0", accept_sigma = "0";
@@ -120,6 +128,7 @@ struct Choices {
         refinement(kRefinements.name(p.refinement.method)),
         formulation(kFormulations.name(p.formulation)),
         merge_order(kMergeOrders.name(p.merge_order)),
+        without(kLeftOut.name(p.without)),
         paper_matches(kPaperMatches.name(p.paper.matches)),
         paper_slack(kPaperSlacks.name(p.paper.slack)),
         paper_end(kPaperEnds.name(p.paper.end)),
@@ -134,6 +143,7 @@ struct Choices {
     p.refinement.method = kRefinements.parse(refinement);
     p.formulation = kFormulations.parse(formulation);
     p.merge_order = kMergeOrders.parse(merge_order);
+    p.without = kLeftOut.parse(without);
     p.paper.matches = kPaperMatches.parse(paper_matches);
     p.paper.slack = kPaperSlacks.parse(paper_slack);
     p.paper.end = kPaperEnds.parse(paper_end);
@@ -336,6 +346,9 @@ po::options_description configurable(RegisterOptions& o, Choices& c) {
       "z points up in every scan, within 10 degrees: links are searched upright only")(
       "merge-order", value(c.merge_order),
       "which scan is merged next: tcm (as the profile measures it), paper-tcm, robust-tcm, overlap, file or random")(
+      "without", value(c.without),
+      "stage of the robust profile that is left out, to measure what it is worth: nothing, features, slides, implied "
+      "(pairs asked where others put them), free-space, twins or constant (of the set)")(
       "confidence", value(p.decision.confidence), "least probability of a place for a scan to count as registered")(
       "solver", value(c.solver), "simplex solver: glpk or cgal (exact, slow, for comparison)");
   po::options_description placement("Simplex, refinement, adjustment");

@@ -3,7 +3,8 @@
 
   ablations.py --out DIR [--quick] [--scenes SCENE...] [--exe TCM_ICP] [--only KEY...]
 
-LP solver (GLPK, CGAL), LP formulation, merge order, outlier removal, refinement and joint adjustment: a table each, as
+LP solver (GLPK, CGAL), LP formulation, merge order, outlier removal, refinement and joint adjustment, and the stages
+that search and decide, in rooms and bays of 8 scans: a table each, as
 CSV and Markdown, with one sentence on what its figures say. Scenes, --quick, resuming and what lies beside the tables
 are those of paper_tables.py, and a DIR of its --out is used again. --scans 12 and --scans 30 measure larger sets, where the
 order of merging and joint programs may matter more. Without --exe, the tcm-icp on PATH is measured, else
@@ -49,21 +50,24 @@ class Bench:
         self.store = CellStore(options.out / "cells")
         folder = "scenes" if options.scans is None else f"scenes-of-{options.scans}"
         self.scenes = SceneMaker(self.program, options.out / folder, extent.simulate)
+        self.own_scenes = {a.key: SceneMaker(self.program, options.out / f"scenes-of-{a.key}", a.simulate)
+                           for a in ABLATIONS if a.simulate}
 
     def cells(self, ablation):
-        return [(d, s) for s in self.extent.seeds for d in self.data_sets]
+        return [(d, s) for s in self.extent.seeds for d in ablation.data_sets or self.data_sets]
 
     def result(self, ablation, variant, data_set, seed):
         """The variant's figures and poses, and whether it was run now."""
         arguments = (*self.extent.register, *ablation.common, *variant.arguments)
         spec = {"ablation": ablation.key, "set": data_set.key, "scene": data_set.folder or data_set.scene, "seed": seed,
                 "kind": ablation.kind, "percent": ablation.percent, "guess": ablation.from_guess,
-                "arguments": list(arguments), "simulate": list(self.extent.simulate),
+                "arguments": list(arguments), "simulate": list(ablation.simulate or self.extent.simulate),
                 "limit_s": self.extent.time_limit_s, "program": self.id}
         finished = self.store.get(spec)
         if finished:
             return finished, False
-        scene, why = self.scenes.degraded(data_set, seed, ablation.kind, ablation.percent)
+        scenes = self.own_scenes.get(ablation.key, self.scenes)
+        scene, why = scenes.degraded(data_set, seed, ablation.kind, ablation.percent)
         if not why and ablation.from_guess:
             guess, why = initial_poses(scene, "robust")
             arguments += guess or ()
@@ -72,7 +76,7 @@ class Bench:
         else:
             kept = self.out / "work" / (cell_name(spec) + "-kept")
             result = measure(self.program, scene, "robust", seed, self.out / "work" / cell_name(spec), arguments, kept,
-                             self.scenes.scene(data_set, seed)[0])
+                             scenes.scene(data_set, seed)[0])
             if "why" not in result:
                 result["poses"] = {s["file"]: s["pose"] for s in
                                    json.loads((kept / "poses.json").read_text(encoding="utf-8"))["scans"]}
@@ -147,12 +151,14 @@ def main():
     options.out.mkdir(parents=True, exist_ok=True)
     found = write_provenance(options.out, options.exe, extent)
     bench = Bench(options, extent, data_sets)
-    chosen = [a for a in ABLATIONS if not options.only or a.key in options.only]
+    # Those with scenes of their own are what they are for any --scans and --scenes.
+    chosen = [a for a in ABLATIONS if a.key in options.only] if options.only else [
+        a for a in ABLATIONS if not a.simulate or options.scans is None and not options.scenes and not options.quick]
     runs = sum(len(bench.cells(a)) * len(a.variants) for a in chosen)
     print(f"{runs} runs, those that are finished among them; about {runs * SECONDS_EACH[extent.name] * (options.scans or 4) / 4 / 60:.0f} min of "
           "processor time from the beginning", file=sys.stderr)
     progress = Progress(runs)
-    parts = [f"# Ablations\n\n{extent.name.capitalize()} run: {', '.join(d.name for d in data_sets)}; seeds "
+    parts = [f"# Ablations\n\n{extent.name.capitalize()} run: {', '.join(d.name for d in data_sets)}, where a table does not say otherwise; seeds "
              f"{', '.join(map(str, extent.seeds))}. Medians over all of them, [least, largest]; shares of scans over all "
              "scans.\n"]
     for ablation in chosen:

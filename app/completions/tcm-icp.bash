@@ -20,6 +20,7 @@ _tcm_icp() {
     --outliers) words="kmeans distance lof none" ;;
     --refinement) words="auto none descent annealing both" ;;
     --merge-order) words="tcm paper-tcm robust-tcm overlap file random" ;;
+    --without) words="nothing features slides implied free-space twins constant" ;;
     --lp.formulation) words="plane point entries squares" ;;
     --paper.matches) words="nearest threshold mutual" ;;
     --paper.slack) words="both above below between" ;;

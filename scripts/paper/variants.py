@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 from paper.plan import ISOLATED_PERCENT
+from paper.scenes import DataSet
 
 
 @dataclass(frozen=True)
@@ -20,6 +21,8 @@ class Ablation:
     kind: str = "none"  # degradation of the scans
     percent: float = 0
     from_guess: bool = False  # start from rough initial poses
+    data_sets: tuple = ()  # in place of the run's own
+    simulate: tuple = ()  # options of their simulation
 
 
 # Without what comes after the simplex: a joint adjustment hides what a placement was like.
@@ -55,4 +58,15 @@ ABLATIONS = (
         Variant("no joint programs", ("--adjustment.lp-steps", "0")),
         Variant("no joint adjustment", ("--adjustment.lp-steps", "0", "--adjustment.steps", "0")),
         Variant("the simplex alone", PLACED_ONLY))),
+    # Streets are placed with any one of them left out: they are for places that repeat themselves.
+    Ablation("stages", "Stages that a set of poses is searched and decided by, in rooms and bays that repeat themselves", (
+        Variant("all (default)", ()),
+        Variant("without features", ("--without", "features")),
+        Variant("without slides along corridors", ("--without", "slides")),
+        Variant("without pairs asked where others put them", ("--without", "implied")),
+        Variant("without free space", ("--without", "free-space")),
+        Variant("without twins", ("--without", "twins")),
+        Variant("without the set's constant", ("--without", "constant"))),
+        data_sets=(DataSet("rooms", "Rooms", "interior"), DataSet("bays", "Bays", "bays")),
+        simulate=("--scans", "8")),
 )

@@ -40,6 +40,7 @@ TEST_F(Usage, RefusesUnknownNamesAndTellsTheKnown) {
   expect_bad({"--outliers", "some"}, {"--outliers 'some'", "kmeans"});
   expect_bad({"--refinement", "icp"}, {"--refinement 'icp'", "descent"});
   expect_bad({"--lp.formulation", "13"}, {"--lp.formulation '13'", "plane, point, entries, squares"});
+  expect_bad({"--without", "sides"}, {"--without 'sides'", "features, slides, implied"});
   expect_bad({"--merge-order", "size"}, {"--merge-order 'size'", "overlap, file, random"});
 }
 

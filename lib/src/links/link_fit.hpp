@@ -14,6 +14,7 @@ struct LinkSearchOptions {
   LpFormulation formulation = LpFormulation::kPointToPlane;
   L1FitOptions lp;
   bool level = false;  ///< z points up in every scan: links that tilt one against another are not tried
+  bool features = true, slides = true;  ///< false: pairs' poses are not searched for by them
 };
 
 /// Each method's best first, then those whose points lie nearest the target.

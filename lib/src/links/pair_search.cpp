@@ -164,6 +164,10 @@ struct PairSearch::Impl {
 
   bool is_large() const { return scans.size() > kMostPartners + 1; }
 
+  bool uses(Tried method) const {
+    return method == Tried::kFeatures ? options.features : method != Tried::kSlides || options.slides;
+  }
+
   // Inference of a large set costs more than the pairs of the few scans that it left without a place.
   bool all_methods_at_once(const std::vector<bool>& wanted) const {
     return is_large() && std::find(wanted.begin(), wanted.end(), false) != wanted.end();
@@ -465,10 +469,11 @@ bool PairSearch::extend(const std::vector<bool>& wanted, const std::vector<std::
     for (const Tried before : {Tried::kNothing, Tried::kHeightMaps, Tried::kFeatures}) {
       const ScanPairs& now = pairs[before];
       if (now.empty()) continue;
-      impl_->fit(now, impl_->candidates(before, now), is_later, set);
+      const bool is_used = impl_->uses(next(before));
+      if (is_used) impl_->fit(now, impl_->candidates(before, now), is_later, set);
       for (const auto& pair : now) impl_->tried[pair] = next(before);
-      any = true;
-      if (!impl_->all_methods_at_once(wanted)) break;
+      any = any || is_used;
+      if (is_used && !impl_->all_methods_at_once(wanted)) break;
       ScanPairs& later = pairs[next(before)];
       later.insert(later.end(), now.begin(), now.end());
       std::sort(later.begin(), later.end());

@@ -105,8 +105,8 @@ StepKey slide_key(const PreparedScan& target, const PreparedScan& source, const 
 }
 
 std::string search_digest(const LinkSearchOptions& options) {
-  const auto& [formulation, lp, level] = options;
-  return step_key("searches", formulation, lp, level).digest;
+  const auto& [formulation, lp, level, features, slides] = options;
+  return step_key("searches", formulation, lp, level, features, slides).digest;
 }
 
 std::vector<std::string> digests_of(const std::vector<PreparedScan>& scans) {
@@ -163,9 +163,10 @@ std::optional<LinkHypothesis> fit_candidate_once(const StepStore* store, const P
                                                  const PreparedScan& source, const PoseCandidate& candidate,
                                                  const LinkSearchOptions& options) {
   if (store == nullptr) return fit_candidate(target, source, candidate, options);
-  const auto& [formulation, lp, level] = options;
-  const StepKey key = step_key("fits", target.digest, source.digest, candidate.T_target_source,
-                               candidate.method == CoarseMethod::kSlide, formulation, lp);
+  const auto& [formulation, lp, level, features, slides] = options;
+  const StepKey key =
+      step_key("fits", target.digest, source.digest, candidate.T_target_source,
+               candidate.method == CoarseMethod::kSlide, candidate.method == CoarseMethod::kImplied, formulation, lp);
   const auto fit = do_once<std::optional<Fit>>(*store, key, [&]() -> std::optional<Fit> {
     const auto found = fit_candidate(target, source, candidate, options);
     if (!found) return std::nullopt;

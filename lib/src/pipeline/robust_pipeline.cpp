@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <optional>
 #include <sstream>
@@ -39,7 +40,11 @@ constexpr int kMaxImplied = 3;    // rounds: what they show may move scans, whic
 
 class RobustPipeline {
  public:
-  RobustPipeline(const PipelineInput& input, PipelineResult& result) : in_(input), result_(result) {}
+  RobustPipeline(const PipelineInput& input, PipelineResult& result)
+      : in_(input), result_(result), inference_(input.options.inference) {
+    if (leaves_out(LeftOut::kTwins)) inference_.log_twins = std::numeric_limits<double>::max();
+    if (leaves_out(LeftOut::kSetConstant)) inference_.set_spread = 0;
+  }
 
   void run() {
     prepare();
@@ -53,6 +58,7 @@ class RobustPipeline {
 
  private:
   std::size_t size() const { return in_.sampled.size(); }
+  bool leaves_out(LeftOut stage) const { return in_.options.without == stage; }
 
   void prepare() {
     in_.clock.begin("prepare");
@@ -63,7 +69,7 @@ class RobustPipeline {
     result_.coarse_voxel_m = resolutions_.coarse_m;
     result_.fine_voxel_m = resolutions_.fine_m;
     scans_ = prepare_scans(in_.sampled, resolutions_, in_.options.samples, in_.context);
-    make_sights(result_.viewpoints, in_.context, scans_);
+    if (!leaves_out(LeftOut::kFreeSpace)) make_sights(result_.viewpoints, in_.context, scans_);
     for (std::size_t i = 0; i < size(); ++i) {
       if (!result_.viewpoints[i]) continue;
       result_.viewpoints[i]->place += in_.sampled[i].scan.origin;
@@ -97,14 +103,16 @@ class RobustPipeline {
       noise_m.push_back(in_.sampled[i].scan.noise_m);
     }
     hypotheses_.emplace(resolutions_.coarse_m, median(noise_m), std::move(moments));
-    const LinkSearchOptions options{in_.options.formulation, in_.options.lp, in_.options.level};
+    const LinkSearchOptions options{in_.options.formulation, in_.options.lp, in_.options.level,
+                                    !leaves_out(LeftOut::kFeatures), !leaves_out(LeftOut::kSlides)};
+    const int max_implied = leaves_out(LeftOut::kImpliedPoses) ? 0 : kMaxImplied;
     PairSearch search(scans_, options, in_.context, kept_);
     std::vector<bool> wanted(size(), true);
     std::vector<std::size_t> groups(size());
     std::iota(groups.begin(), groups.end(), std::size_t{0});
     while (search.extend(wanted, groups, *hypotheses_)) {
       Inferred now = infer(kLeastStarts);
-      for (int round = 0; round < kMaxImplied && search.try_implied(implied(now, search), *hypotheses_); ++round)
+      for (int round = 0; round < max_implied && search.try_implied(implied(now, search), *hypotheses_); ++round)
         now = infer(1);
       wanted = without_clear_place(now);
       groups = clear_groups(now.components, now.cuts, kLeadToRest, size());
@@ -118,13 +126,13 @@ class RobustPipeline {
 
   Inferred infer(int least_starts) {
     for (int round = 1;; ++round, least_starts = 1) {
-      PairGraph graph = hypotheses_->graph(std::vector<bool>(size(), true), in_.options.inference);
+      PairGraph graph = hypotheses_->graph(std::vector<bool>(size(), true), inference_);
       std::vector<Component> components = components_of(graph, least_starts);
       std::vector<std::vector<Cut>> cuts;
       for (const Component& component : components) {
         cuts.push_back(weakest_cuts(graph, component, in_.context.num_threads, kMostLead));
       }
-      if (round == kMaxLearnt || !hypotheses_->learn_constants(components, cuts, in_.options.inference.set_spread)) {
+      if (round == kMaxLearnt || !hypotheses_->learn_constants(components, cuts, inference_.set_spread)) {
         return {std::move(graph), std::move(components), std::move(cuts)};
       }
       hypotheses_->score();
@@ -169,7 +177,7 @@ class RobustPipeline {
     std::vector<bool> left(size(), true);
     for (bool is_any_settled = true; is_any_settled;) {
       is_any_settled = false;
-      const PairGraph graph = hypotheses_->graph(left, in_.options.inference);
+      const PairGraph graph = hypotheses_->graph(left, inference_);
       for (Component& component : components_of(graph, kLeastStarts)) {
         const std::size_t num_inferred = component.size();
         SettledComponent settled = merge_and_settle(graph, std::move(component));
@@ -349,6 +357,7 @@ class RobustPipeline {
 
   const PipelineInput& in_;
   PipelineResult& result_;
+  InferenceOptions inference_;  // with what is left out
   Resolutions resolutions_;
   KeptSearches kept_;
   InitialPoses T_init_;  // common frame of the initial poses <- local frame

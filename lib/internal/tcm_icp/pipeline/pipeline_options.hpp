@@ -17,10 +17,22 @@
 
 namespace tcm_icp {
 
+/// A stage of the robust pipeline that is left out, to measure what it is worth.
+enum class LeftOut {
+  kNothing,
+  kFeatures,      ///< the second search for pairs' poses; partners are still ranked by them in large sets
+  kSlides,        ///< the third, along corridors
+  kImpliedPoses,  ///< pairs asked where other pairs put them
+  kFreeSpace,     ///< what scans saw through, and which side of a surface
+  kTwins,         ///< parts held against a place that looks like the right one to all pairs
+  kSetConstant,   ///< log-odds corrected by what the set's own poses teach
+};
+
 struct PipelineOptions {
   Profile profile = Profile::kRobust;
   std::string reference;  ///< file or number of the reference scan; empty: chosen by the graph
   MergeOrder merge_order = MergeOrder::kTcm;
+  LeftOut without = LeftOut::kNothing;
   double graph_threshold = 0;  ///< >= 0; measure below which scans are connected; 0: from the data
   /// Scans were levelled: z points up in each (kMaxLevelTilt_deg). Links that tilt one against another are not tried.
   bool level = false;
