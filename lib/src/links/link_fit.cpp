@@ -75,9 +75,7 @@ std::optional<LinkHypothesis> fit_candidate(const PreparedScan& target, const Pr
   LpRegistrationOptions lp;
   lp.formulation = options.formulation;
   lp.lp = options.lp;
-  // What other links imply is asked about there, not at what lies about it.
-  const bool is_implied = candidate.method == CoarseMethod::kImplied;
-  lp.initial_gate_m = (is_implied ? kLastDistance : kFirstDistance) * voxel_m;
+  lp.initial_gate_m = (candidate.there ? kLastDistance : kFirstDistance) * voxel_m;
   lp.final_gate_m = kLastDistance * voxel_m;
   lp.gate_shrink = kDistanceShrink;
   lp.max_iterations = kMaxLpSolves;

@@ -342,6 +342,15 @@ struct PairSearch::Impl {
     return std::nullopt;
   }
 
+  /// Whether a fit of the pair has led to within `same_m`.
+  bool was_fitted_near(std::size_t a, std::size_t b, const Eigen::Isometry3d& T_a_b, double same_m) const {
+    const auto known = fitted.find({a, b});
+    if (known == fitted.end()) return false;
+    return std::any_of(known->second.begin(), known->second.end(), [&](const Eigen::Isometry3d& T) {
+      return rms_displacement(T_a_b.inverse() * T, scans[b].moments) < same_m;
+    });
+  }
+
   /// Fits pairs at given poses where they overlap there; of each scan those with the `most_partners` it overlaps with
   /// most. False where there was none, or all were tried before.
   bool try_poses(const std::vector<ImpliedPose>& poses, CoarseMethod method, std::size_t most_partners,
@@ -357,7 +366,7 @@ struct PairSearch::Impl {
       });
       if (known) continue;
       before.push_back(T_a_b);
-      wanted[{a, b}].push_back({T_a_b, method, 1, 1});
+      wanted[{a, b}].push_back({T_a_b, method, 1, 1, was_fitted_near(a, b, T_a_b, set.same_m())});
     }
     ScanPairs pairs;
     std::vector<std::vector<PoseCandidate>> candidates;

@@ -14,8 +14,8 @@ namespace tcm_icp {
 
 template <typename Record, MaybeConst<PoseCandidate> T>
 void transfer(Record& record, T& value) {
-  auto& [T_target_source, method, score, margin] = value;
-  record(T_target_source, method, score, margin);
+  auto& [T_target_source, method, score, margin, there] = value;
+  record(T_target_source, method, score, margin, there);
 }
 
 template <typename Record, MaybeConst<AlignmentEvidence> T>
@@ -164,9 +164,8 @@ std::optional<LinkHypothesis> fit_candidate_once(const StepStore* store, const P
                                                  const LinkSearchOptions& options) {
   if (store == nullptr) return fit_candidate(target, source, candidate, options);
   const auto& [formulation, lp, level, features, slides] = options;
-  const StepKey key =
-      step_key("fits", target.digest, source.digest, candidate.T_target_source,
-               candidate.method == CoarseMethod::kSlide, candidate.method == CoarseMethod::kImplied, formulation, lp);
+  const StepKey key = step_key("fits", target.digest, source.digest, candidate.T_target_source,
+                               candidate.method == CoarseMethod::kSlide, candidate.there, formulation, lp);
   const auto fit = do_once<std::optional<Fit>>(*store, key, [&]() -> std::optional<Fit> {
     const auto found = fit_candidate(target, source, candidate, options);
     if (!found) return std::nullopt;
