@@ -18,7 +18,8 @@ struct PoseCandidate {
   CoarseMethod method = CoarseMethod::kFeatures;
   double score = 0;   ///< larger is better; comparable within a method and a set
   double margin = 0;  ///< score by the best score of a clearly different pose of the same pair and method; 1 is a tie
-  /// Asked there alone: a fit from about there has led to another pose that is one with it, a wall's other face perhaps.
+  /// Asked there alone: a fit from about there has led to another pose that is one with it, a wall's other face
+  /// perhaps.
   bool there = false;
 };
 
