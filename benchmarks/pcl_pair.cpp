@@ -1,7 +1,6 @@
 #include "pcl_pair.hpp"
 
 #include <pcl/features/fpfh.h>
-#include <pcl/features/normal_3d.h>
 #include <pcl/filters/filter.h>
 #include <pcl/filters/voxel_grid.h>
 #include <pcl/io/ply_io.h>
@@ -12,7 +11,6 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "pcl_search.hpp"
 #include "tcm_icp/core/rigid_transform.hpp"
 
 namespace tcm_icp {
@@ -26,24 +24,6 @@ std::size_t count_near(const PclSurface& source, const PclSurface& target, const
   return static_cast<std::size_t>(std::count_if(points.begin(), points.end(), [&](const pcl::PointNormal& p) {
     return target.index->any_within(T * p.getVector3fMap().cast<double>(), reach_m);
   }));
-}
-
-/// With normals within so far.
-PclSurface with_normals(const PclCloud& points, double radius_m) {
-  PclSurface out{pcl::make_shared<pcl::PointCloud<pcl::PointNormal>>(), nullptr};
-  pcl::copyPointCloud(*points, *out.points);
-  pcl::NormalEstimation<pcl::PointNormal, pcl::PointNormal> normals;
-  Eigen::Vector4f middle;
-  pcl::compute3DCentroid(*out.points, middle);
-  normals.setViewPoint(middle.x(), middle.y(), middle.z());
-  normals.setInputCloud(out.points);
-  normals.setSearchMethod(pcl::make_shared<Search>(index_of(*out.points)));
-  normals.setRadiusSearch(radius_m);
-  normals.compute(*out.points);
-  pcl::Indices kept;
-  pcl::removeNaNNormalsFromPointCloud(*out.points, *out.points, kept);
-  out.index = index_of(*out.points);
-  return out;
 }
 
 }  // namespace
@@ -81,7 +61,7 @@ PclCloud pcl_voxel_sample(const PclCloud& scan, double voxel_m) {
 }
 
 PclSurface pcl_surface(const PclCloud& scan, double voxel_m) {
-  return with_normals(pcl_voxel_sample(scan, voxel_m), 2 * voxel_m);
+  return pcl_surface_of(*pcl_voxel_sample(scan, voxel_m), 2 * voxel_m);
 }
 
 PclPrepared pcl_prepare(const PclCloud& scan, double voxel_m) {

@@ -6,10 +6,9 @@
 #include <pcl/point_types.h>
 
 #include <Eigen/Geometry>
-#include <memory>
 #include <string>
 
-#include "tcm_icp/core/neighbor_index.hpp"
+#include "pcl_surface.hpp"
 
 namespace tcm_icp {
 
@@ -25,10 +24,6 @@ double pcl_spacing(const PclCloud& scan);
 PclCloud pcl_voxel_sample(const PclCloud& scan, double voxel_m);
 
 /// Sampled to voxels, with normals within 2 of them; points without neighbours are left out.
-struct PclSurface {
-  pcl::PointCloud<pcl::PointNormal>::Ptr points;
-  std::shared_ptr<const NeighborIndex> index;
-};
 PclSurface pcl_surface(const PclCloud& scan, double voxel_m);
 
 struct PclPrepared {

@@ -1,8 +1,5 @@
 #include <pcl/features/fpfh.h>
-#include <pcl/features/normal_3d.h>
-#include <pcl/filters/filter.h>
 #include <pcl/registration/sample_consensus_prerejective.h>
-#include <pcl/search/kdtree.h>
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +9,7 @@
 #include "pair_set.hpp"
 #include "pcl_icp.hpp"
 #include "pcl_methods.hpp"
-#include "pcl_search.hpp"
+#include "pcl_surface.hpp"
 #include "tcm_icp/baselines/principal_axes.hpp"
 #include "tcm_icp/baselines/spanning_tree.hpp"
 #include "tcm_icp/core/error.hpp"
@@ -21,7 +18,6 @@
 namespace tcm_icp {
 namespace {
 
-using PclSurface = pcl::PointCloud<pcl::PointNormal>;
 using Search = PclSearch<pcl::PointNormal>;
 using PclFeatures = pcl::PointCloud<pcl::FPFHSignature33>;
 
@@ -33,29 +29,16 @@ constexpr int kConsensusIterations = 50'000, kIcpIterations = 50;
 
 /// Points in units of the voxel, each with its normal and features.
 struct Described {
-  PclSurface::Ptr points = pcl::make_shared<PclSurface>();
+  PclSurface surface;
   PclFeatures::Ptr features = pcl::make_shared<PclFeatures>();
-  std::shared_ptr<const NeighborIndex> index;
 };
 
 Described describe(const Points& scan, double voxel_m) {
-  Described out;
-  pcl::copyPointCloud(*to_pcl(scan, voxel_m), *out.points);
-  pcl::NormalEstimation<pcl::PointNormal, pcl::PointNormal> normals;
-  Eigen::Vector4f middle;
-  pcl::compute3DCentroid(*out.points, middle);
-  normals.setViewPoint(middle.x(), middle.y(), middle.z());
-  normals.setInputCloud(out.points);
-  normals.setSearchMethod(pcl::make_shared<Search>(index_of(*out.points)));
-  normals.setRadiusSearch(2);
-  normals.compute(*out.points);
-  pcl::Indices kept;
-  pcl::removeNaNNormalsFromPointCloud(*out.points, *out.points, kept);
+  Described out{pcl_surface_of(*to_pcl(scan, voxel_m), 2)};
   pcl::FPFHEstimation<pcl::PointNormal, pcl::PointNormal, pcl::FPFHSignature33> features;
-  features.setInputCloud(out.points);
-  features.setInputNormals(out.points);
-  out.index = index_of(*out.points);
-  features.setSearchMethod(pcl::make_shared<Search>(out.index));
+  features.setInputCloud(out.surface.points);
+  features.setInputNormals(out.surface.points);
+  features.setSearchMethod(pcl::make_shared<Search>(out.surface.index));
   features.setRadiusSearch(5);
   features.compute(*out.features);
   return out;
@@ -64,18 +47,18 @@ Described describe(const Points& scan, double voxel_m) {
 /// False where no pose was found. Lengths are in voxels.
 bool find_consensus(const Described& source, const Described& target, double voxel_m, PairFit& fit) {
   pcl::SampleConsensusPrerejective<pcl::PointNormal, pcl::PointNormal, pcl::FPFHSignature33> consensus;
-  consensus.setInputSource(source.points);
+  consensus.setInputSource(source.surface.points);
   consensus.setSourceFeatures(source.features);
-  consensus.setInputTarget(target.points);
+  consensus.setInputTarget(target.surface.points);
   consensus.setTargetFeatures(target.features);
   consensus.setMaximumIterations(kConsensusIterations);
   consensus.setNumberOfSamples(3);
   consensus.setCorrespondenceRandomness(5);
   consensus.setSimilarityThreshold(0.9F);
   consensus.setMaxCorrespondenceDistance(kConsensusReach);
-  consensus.setSearchMethodTarget(pcl::make_shared<Search>(target.index, kConsensusReach), true);
+  consensus.setSearchMethodTarget(pcl::make_shared<Search>(target.surface.index, kConsensusReach), true);
   consensus.setInlierFraction(0.1F);  // the tutorial's 0.25 is for an object that is wholly in the scene
-  PclSurface moved;
+  pcl::PointCloud<pcl::PointNormal> moved;
   consensus.align(moved);
   fit.ransac_iterations = kConsensusIterations;  // PCL's loop has no other end
   if (consensus.hasConverged()) fit.T_target_source = from_pcl(consensus.getFinalTransformation(), voxel_m);
