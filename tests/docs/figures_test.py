@@ -4,19 +4,15 @@ A table of figures has a line above it that names its file: <!-- figures: table-
 several, <!-- figures: table-set*.csv RMS (50,000 points) [m] -->: that criterion, a row a data set.
 """
 
-import csv
-import re
+import sys
 import unittest
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 RESULTS = ROOT / "docs" / "results"
-TABLE = re.compile(r"^<!-- figures: (?P<file>\S+)(?: (?P<criterion>[^\n]+))? -->\n(?P<table>(?:\|[^\n]*\n)+)", re.M)
+sys.path.insert(0, str(ROOT / "scripts"))
 
-
-def read_csv(path):
-    with open(path, newline="", encoding="utf-8") as f:
-        return list(csv.reader(f))
+from update_figures import TABLE, read_csv
 
 
 def read_markdown(text):

@@ -15,6 +15,9 @@
 namespace tcm_icp {
 
 constexpr double kLeastGain = 1e-9;  // of support: less is rounding
+/// Of the distance at which poses are one: fits to one optimum end nearer one another. A wall's other face may be
+/// farther, and still one pose.
+constexpr double kFittedShare = 0.25;
 
 /// One pose a pair may have.
 struct PoseHypothesis {
@@ -75,10 +78,9 @@ class PairGraph {
     return same_mean(T * moments_[scan].mean, U * moments_[scan].mean) &&
            rms_displacement(T.inverse() * U, moments_[scan]) < same_m_;
   }
-  /// Whether a fit that starts at one of two poses would end at the other, as far as can be told: the distance at which
-  /// poses begin to be one, a quarter of that at which they are.
+  /// Whether a fit that starts at one of two poses would end at the other, as far as can be told.
   bool is_fitted(std::size_t scan, const Eigen::Isometry3d& T, const Eigen::Isometry3d& U) const {
-    return rms_displacement(T.inverse() * U, moments_[scan]) < same_m_ / 4;
+    return rms_displacement(T.inverse() * U, moments_[scan]) < kFittedShare * same_m_;
   }
   const Eigen::Vector3d& mean_of(std::size_t scan) const { return moments_[scan].mean; }
   /// Whether the mean of a scan's points lies near enough at two poses for the poses to be one.

@@ -53,9 +53,7 @@ class HypothesisSet {
   const SetReference& reference() const { return reference_; }
   const std::vector<PointMoments>& moments() const { return moments_; }
   double same_m() const { return kSameLinkPose * voxel_m_; }
-  /// Fits to one optimum end nearer one another: a coarse voxel. A wall's other face may be farther, and still one
-  /// pose.
-  double fitted_m() const { return voxel_m_; }
+  double fitted_m() const { return kFittedShare * same_m(); }  ///< a coarse voxel
 
   /// Of the likeliest hypothesis; minus infinity where there is none.
   double log_odds(std::size_t a, std::size_t b) const;

@@ -342,15 +342,6 @@ struct PairSearch::Impl {
     return std::nullopt;
   }
 
-  /// Whether a fit of the pair has led to within `same_m`.
-  bool was_fitted_near(std::size_t a, std::size_t b, const Eigen::Isometry3d& T_a_b, double same_m) const {
-    const auto known = fitted.find({a, b});
-    if (known == fitted.end()) return false;
-    return std::any_of(known->second.begin(), known->second.end(), [&](const Eigen::Isometry3d& T) {
-      return rms_displacement(T_a_b.inverse() * T, scans[b].moments) < same_m;
-    });
-  }
-
   /// Fits pairs at given poses where they overlap there; of each scan those with the `most_partners` it overlaps with
   /// most. False where there was none, or all were tried before.
   bool try_poses(const std::vector<ImpliedPose>& poses, CoarseMethod method, std::size_t most_partners,
@@ -361,12 +352,16 @@ struct PairSearch::Impl {
       const std::size_t a = poses[k].a, b = poses[k].b;
       const Eigen::Isometry3d& T_a_b = poses[k].T_a_b;
       std::vector<Eigen::Isometry3d>& before = implied[{a, b}];
-      const bool known = std::any_of(before.begin(), before.end(), [&](const Eigen::Isometry3d& T) {
-        return rms_displacement(T_a_b.inverse() * T, scans[b].moments) < set.fitted_m();
-      });
-      if (known) continue;
+      const auto has_within = [&](const std::vector<Eigen::Isometry3d>& known, double distance_m) {
+        return std::any_of(known.begin(), known.end(), [&](const Eigen::Isometry3d& T) {
+          return rms_displacement(T_a_b.inverse() * T, scans[b].moments) < distance_m;
+        });
+      };
+      if (has_within(before, set.fitted_m())) continue;
       before.push_back(T_a_b);
-      wanted[{a, b}].push_back({T_a_b, method, 1, 1, was_fitted_near(a, b, T_a_b, set.same_m())});
+      const auto fits = fitted.find({a, b});
+      const bool there = fits != fitted.end() && has_within(fits->second, set.same_m());
+      wanted[{a, b}].push_back({T_a_b, method, 1, 1, there});
     }
     ScanPairs pairs;
     std::vector<std::vector<PoseCandidate>> candidates;
