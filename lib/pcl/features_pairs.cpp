@@ -26,6 +26,7 @@ constexpr double kMultiples[] = {32, 16, 8, 4};
 constexpr std::size_t kLeastPoints = 1000, kMostPoints = 10'000;
 constexpr double kConsensusReach = 2.5;  // voxels
 constexpr int kConsensusIterations = 50'000, kIcpIterations = 50;
+constexpr int kSamples = 3, kCandidates = 5;  // points of a sample, and features like each of them
 
 /// Points in units of the voxel, each with its normal and features.
 struct Described {
@@ -46,14 +47,17 @@ Described describe(const Points& scan, double voxel_m) {
 
 /// False where no pose was found. Lengths are in voxels.
 bool find_consensus(const Described& source, const Described& target, double voxel_m, PairFit& fit) {
+  // PCL reads past the end of clouds with fewer points than a sample, or than a feature's candidates.
+  constexpr auto kLeast = static_cast<std::size_t>(std::max(kSamples, kCandidates));
+  if (std::min(source.features->size(), target.features->size()) < kLeast) return false;
   pcl::SampleConsensusPrerejective<pcl::PointNormal, pcl::PointNormal, pcl::FPFHSignature33> consensus;
   consensus.setInputSource(source.surface.points);
   consensus.setSourceFeatures(source.features);
   consensus.setInputTarget(target.surface.points);
   consensus.setTargetFeatures(target.features);
   consensus.setMaximumIterations(kConsensusIterations);
-  consensus.setNumberOfSamples(3);
-  consensus.setCorrespondenceRandomness(5);
+  consensus.setNumberOfSamples(kSamples);
+  consensus.setCorrespondenceRandomness(kCandidates);
   consensus.setSimilarityThreshold(0.9F);
   consensus.setMaxCorrespondenceDistance(kConsensusReach);
   consensus.setSearchMethodTarget(pcl::make_shared<Search>(target.surface.index, kConsensusReach), true);

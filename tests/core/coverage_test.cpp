@@ -80,6 +80,43 @@ TEST(Coverage, OfRingsIsAboutTheDistanceOfRings) {
   EXPECT_LT(found_m, 1);
 }
 
+Points with_isolated(Points points, double share, Rng& rng) {
+  const Points isolated =
+      testing::random_points(static_cast<std::size_t>(share * static_cast<double>(points.size())), kExtent_m, rng);
+  points.insert(points.end(), isolated.begin(), isolated.end());
+  return points;
+}
+
+// Each is a voxel of its own at any edge, which hid the surfaces: coverage came out ten times as long.
+TEST(Coverage, IsolatedPointsDoNotHideAPlane) {
+  Rng rng = make_stream(9, "coverage_test");
+  const Points surface = plane(0.2, rng);
+  const double found_m = coverage_m(surface, kExtent_m);
+  for (const double share : {0.05, 0.1, 0.2}) {
+    const double with_m = coverage_m(with_isolated(surface, share, rng), kExtent_m);
+    EXPECT_GT(with_m, found_m / 1.5) << share;
+    EXPECT_LT(with_m, 1.5 * found_m) << share;
+  }
+}
+
+// With twice as many some lie as near one another as voxels of lines do where these meet, and coverage is 4 times as
+// long.
+TEST(Coverage, FewIsolatedPointsDoNotHideLines) {
+  Rng rng = make_stream(11, "coverage_test");
+  const Points surface = lines(0.4, rng);
+  const double found_m = coverage_m(surface, kExtent_m);
+  const double with_m = coverage_m(with_isolated(surface, 0.05, rng), kExtent_m);
+  EXPECT_GT(with_m, found_m / 2);
+  EXPECT_LT(with_m, 2 * found_m);
+}
+
+TEST(Coverage, OfIsolatedPointsAloneIsNotThatOfSurfaces) {
+  Rng rng = make_stream(10, "coverage_test");
+  const Points points = testing::random_points(2000, kExtent_m, rng);
+  const double apart_m = kExtent_m / std::cbrt(2000.0);
+  EXPECT_GT(coverage_m(points, kExtent_m), apart_m / 3);
+}
+
 TEST(Coverage, ScalesWithThePointsAndTheirExtent) {
   Rng rng = make_stream(4, "coverage_test");
   const Points points = plane(0.2, rng);
