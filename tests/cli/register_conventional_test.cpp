@@ -1,9 +1,11 @@
 // `tcm-icp register --method icp|features`: the same files as by TCM, or a refusal that says what is missing.
 
 #include <algorithm>
+#include <fstream>
 
 #include "cli_test.hpp"
 #include "result_files.hpp"
+#include "support/random_points.hpp"
 
 namespace tcm_icp::test {
 namespace {
@@ -92,6 +94,20 @@ TEST_F(RegisterConventional, FeaturesGiveTheSamePosesForTheSameSeed) {
   ASSERT_EQ(run(Words{"register", "--out", "a"} + arguments).exit_code, 0);
   ASSERT_EQ(run(Words{"register", "--out", "b"} + arguments).exit_code, 0);
   EXPECT_EQ(read_text(folder() / "a/poses.json"), read_text(folder() / "b/poses.json"));
+}
+
+// Its points have no neighbours, hence no normals and no features.
+TEST_F(RegisterConventional, FeaturesTakeAScanOfIsolatedPoints) {
+  skip_without_pcl();
+  if (IsSkipped()) return;
+  Rng rng = make_stream(1, "register_conventional_test");
+  std::ofstream out(folder() / "isolated.xyz");
+  for (const auto& p : testing::random_points(100, 60, rng)) out << p.transpose() << '\n';
+  out.close();
+  const RunResult result = run(Words{"register", "--out", "result", "--method", "features"} + kSmall +
+                               town_scans({1, 2}) + Words{(folder() / "isolated.xyz").string()});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(read_pose_file(folder() / "result/poses.json").scans.size(), 3U);
 }
 
 TEST_F(RegisterConventional, FeaturesRefuseInitialPoses) {
