@@ -12,9 +12,10 @@ SCENES is a folder of scenes: scans (binary PLY) and their truth.json. Methods, 
 The rivals choose their voxel size from the data, by their own fitness, and give scans up by their own rule; both are
 described at the top of their programs. `CPU s` is all of it, `one size` the same without the
 sizes that were not chosen.
+Scenes may be named KIND-SCENE: comparison.csv, a row a scene and a column a program, has a total for each kind.
 Each run is pinned to one core. After --cpu-limit seconds of CPU a rival finishes its first voxel size, begins no other
 pair and answers from the sizes that are done; the run is killed at three times the limit, and its scans count as flagged. DIR gets poses and logs, table.md,
-table.csv, and the command lines in commands.txt. Scoring: scripts/score_poses.py. Needs numpy.
+table.csv, comparison.csv, provenance.json, and the command lines in commands.txt. Scoring: scripts/score_poses.py. Needs numpy.
 """
 
 import argparse
@@ -36,7 +37,10 @@ BUILD = HERE.parent / "build" / "release"
 METHODS = ("tcm-icp", "open3d-ransac", "open3d-fgr", "pcl")
 COLUMNS = ("scene", "method", "scans ok", "flagged", "WRONG", "CPU s", "one size", "wall s", "peak MB", "note")
 
+from benchmark.side_by_side import side_by_side
 from benchmark.spent import forget_peak
+
+from paper.provenance import add_tables, origin
 
 try:
     from score_poses import score_poses
@@ -117,6 +121,19 @@ def markdown(row):
     return "| " + " | ".join(str(cell) for cell in row) + " |"
 
 
+def write_side_by_side(rows, options):
+    measured = []
+    for row in rows:
+        r = dict(zip(COLUMNS, row))
+        ok, scans = map(int, r["scans ok"].split("/"))
+        measured.append({"scene": r["scene"], "method": r["method"], "ok": ok, "scans": scans, "wrong": r["WRONG"], "cpu_s": float(r["CPU s"]),
+                         "peak_mb": float(r["peak MB"]), "unanswered": r["note"].startswith("no answer")})
+    header, table = side_by_side(measured)
+    with open(options.out / "comparison.csv", "w", newline="", encoding="utf-8") as f:
+        csv.writer(f).writerows([header, *table])
+    add_tables(options.out, {"comparison": origin(options.exe)})
+
+
 def check_programs(options):
     """What is missing is said before anything runs."""
     missing = []
@@ -160,7 +177,10 @@ def main():
             (options.out / "table.md").write_text("\n".join(table) + "\n", encoding="utf-8")
             with open(options.out / "table.csv", "w", newline="", encoding="utf-8") as f:
                 csv.writer(f).writerows([COLUMNS, *rows])
-    print((options.out / "table.md").read_text(encoding="utf-8") if rows else "no scenes", end="")
+    if not rows:
+        sys.exit(f"compare_registration.py: {options.scenes}: no folder in it has a truth.json")
+    write_side_by_side(rows, options)
+    print((options.out / "table.md").read_text(encoding="utf-8"), end="")
 
 
 if __name__ == "__main__":

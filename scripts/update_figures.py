@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Brings the tables of README.md, docs/results.md and docs/failure_modes.md up to docs/results/*.csv.
+"""Brings the tables of README.md and of the pages with figures (PAGES) up to docs/results/*.csv.
 
   update_figures.py
 
@@ -14,7 +14,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 RESULTS = ROOT / "docs" / "results"
-PAGES = ("README.md", "docs/results.md", "docs/failure_modes.md")
+PAGES = ("README.md", "docs/results.md", "docs/failure_modes.md", "docs/comparison.md")
 TABLE = re.compile(r"^(?P<mark><!-- figures: (?P<file>\S+)(?: (?P<criterion>[^\n]+))? -->\n)(?P<table>(?:\|[^\n]*\n)+)", re.M)
 
 

@@ -1,4 +1,4 @@
-"""The figures of README.md, docs/results.md and docs/failure_modes.md are those of docs/results/*.csv.
+"""The figures of README.md and of the pages with figures are those of docs/results/*.csv.
 
 A table of figures has a line above it that names its file: <!-- figures: table-set1.csv -->, or, where its rows come from
 several, <!-- figures: table-set*.csv RMS (50,000 points) [m] -->: that criterion, a row a data set.
@@ -12,7 +12,7 @@ ROOT = Path(__file__).resolve().parent.parent.parent
 RESULTS = ROOT / "docs" / "results"
 sys.path.insert(0, str(ROOT / "scripts"))
 
-from update_figures import TABLE, read_csv
+from update_figures import PAGES, TABLE, read_csv
 
 
 def read_markdown(text):
@@ -58,7 +58,7 @@ class Figures(unittest.TestCase):
                 self.assertEqual(cell, median_of(values[column]), f"{page}: {row[0]}, {column}")
 
     def test_tables_are_those_of_the_files(self):
-        for page in ("README.md", "docs/results.md", "docs/failure_modes.md"):
+        for page in PAGES:
             for found in self.tables(page):
                 with self.subTest(page=page, file=found["file"]):
                     (self.check_one_criterion if found["criterion"] else self.check_whole_table)(page, found)

@@ -12,6 +12,7 @@ import numpy as np
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent.parent / "scripts"))
 
 from benchmark import files, growth, pairs
+from benchmark.side_by_side import side_by_side
 from benchmark.spent import Missing, require, run
 from ply import read_points
 
@@ -81,6 +82,27 @@ class Programs(unittest.TestCase):
     def test_a_failure_is_an_error_with_what_the_program_said(self):
         with self.assertRaisesRegex(RuntimeError, "exit status 3: too bad"):
             run(["sh", "-c", "echo too bad; exit 3"])
+
+
+class SideBySide(unittest.TestCase):
+    @staticmethod
+    def row(scene, method, ok, wrong, cpu_s, unanswered=False):
+        return {"scene": scene, "method": method, "ok": ok, "scans": 6, "wrong": wrong, "cpu_s": cpu_s, "peak_mb": 10 * cpu_s, "unanswered": unanswered}
+
+    def test_each_kind_has_a_total(self):
+        rows = [self.row("real-a", "tcm-icp", 6, 0, 3), self.row("real-a", "pcl", 4, 2, 20), self.row("real-b", "tcm-icp", 5, 0, 4),
+                self.row("real-b", "pcl", 0, 0, 90, True), self.row("simulated-c", "tcm-icp", 6, 0, 1), self.row("simulated-c", "pcl", 6, 0, 12)]
+        header, table = side_by_side(rows)
+        self.assertEqual(header, ["Scenes", "Scene", "tcm-icp", "PCL"])
+        self.assertEqual(table, [["real", "a", "6/6, 3.0 s, 30 MB", "4/6, 2 WRONG, 20 s, 200 MB"],
+                                 ["real", "b", "5/6, 4.0 s, 40 MB", "0/6, no answer, 90 s, 900 MB"],
+                                 ["real", "all", "11/12, 7.0 s, 40 MB", "4/12, 2 WRONG, 1 without an answer, 110 s, 900 MB"],
+                                 ["simulated", "c", "6/6, 1.0 s, 10 MB", "6/6, 12 s, 120 MB"],
+                                 ["simulated", "all", "6/6, 1.0 s, 10 MB", "6/6, 12 s, 120 MB"]])
+
+    def test_what_was_not_run_has_no_total(self):
+        _, table = side_by_side([self.row("a", "tcm-icp", 6, 0, 3), self.row("b", "tcm-icp", 6, 0, 3), self.row("b", "pcl", 6, 0, 3)])
+        self.assertEqual(table, [["", "a", "6/6, 3.0 s, 30 MB", "-"], ["", "b", "6/6, 3.0 s, 30 MB", "6/6, 3.0 s, 30 MB"]])
 
 
 if __name__ == "__main__":
