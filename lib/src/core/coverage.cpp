@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 #include "voxel_table.hpp"
@@ -13,92 +12,77 @@ namespace {
 constexpr int kFirstHalvings = 12;
 constexpr std::size_t kLeastVoxels = 64;  // fewer say nothing of a dimension
 constexpr double kLine = 1.05;            // the dimension of a line, and what a grid makes of an oblique one
-// A line that passes through a block and those around it occupies twelve voxels there; a gap in it may take a third.
-constexpr std::uint32_t kLeastAround = 8;
+// A line occupies six voxels in and around a coarse one that it passes through; a gap in it may take a third.
+constexpr std::uint32_t kLeastAround = 4;
 constexpr std::size_t kPlacesAsked = 4000;  // a dimension to one in a hundred
 constexpr double kFewIsolated = 0.1;        // of all voxels: so few hardly change a dimension
-constexpr double kMostIsolated = 0.5;       // with more, the rest are patches of what is sparse
+constexpr double kMostIsolated = 0.6;       // with more, the rest are patches of what is sparse
 
 VoxelKey halved(const VoxelKey& k) { return {k.x >> 1, k.y >> 1, k.z >> 1}; }
 
 // The occupied voxels at twice the edge of a level, with the number of the level's voxels in each: 1 to 8.
-struct Octave {
-  explicit Octave(const std::vector<VoxelKey>& fine) : num_fine(fine.size()) {
-    VoxelTable table;
-    for (const VoxelKey& k : fine) {
-      const std::uint32_t number = table.find_or_insert(halved(k));
-      if (number == occupied.size()) occupied.push_back(0);
-      ++occupied[number];
-    }
-    coarse = table.keys();
-  }
-
-  std::size_t num_fine;
-  std::vector<VoxelKey> coarse;
-  std::vector<std::uint32_t> occupied;  // in the order of `coarse`
-};
-
-// Tells by which voxels nothing continuous passes: fewer occupied ones lie around than a line has.
-class Surroundings {
+class Octave {
  public:
-  explicit Surroundings(const Octave& octave) {
-    for (std::size_t i = 0; i < octave.coarse.size(); ++i) {
-      const std::uint32_t block = blocks_.find_or_insert(halved(octave.coarse[i]));
-      if (block == occupied_.size()) occupied_.push_back(0);
-      occupied_[block] += octave.occupied[i];
+  explicit Octave(const std::vector<VoxelKey>& fine) : num_fine_(fine.size()) {
+    for (const VoxelKey& k : fine) {
+      const std::uint32_t number = table_.find_or_insert(halved(k));
+      if (number == occupied_.size()) occupied_.push_back(0);
+      ++occupied_[number];
     }
   }
 
-  // All voxels of a block are isolated, or none: so are all that lie in one of the octave's coarse ones.
-  bool isolate(const VoxelKey& coarse) const {
-    const VoxelKey centre = halved(coarse);
-    std::uint32_t around = occupied(centre);  // most blocks of surfaces need no other
+  const std::vector<VoxelKey>& coarse() const { return table_.keys(); }
+  std::uint32_t occupied(std::size_t i) const { return occupied_[i]; }
+  double dimension() const { return std::log2(static_cast<double>(num_fine_) / table_.size()); }
+
+  // Nothing continuous passes by: fewer voxels are occupied in and around a coarse one than a line has.
+  bool is_isolated(std::size_t i) const {
+    const VoxelKey& c = coarse()[i];
+    std::uint32_t around = occupied_[i];
     for (int cell = 0; cell < 27 && around < kLeastAround; ++cell) {
-      if (cell == 13) continue;
-      around += occupied({centre.x + cell % 3 - 1, centre.y + cell / 3 % 3 - 1, centre.z + cell / 9 - 1});
+      if (cell == 13) continue;  // itself
+      const std::uint32_t near = table_.find({c.x + cell % 3 - 1, c.y + cell / 3 % 3 - 1, c.z + cell / 9 - 1});
+      if (near != VoxelTable::kNone) around += occupied_[near];
     }
     return around < kLeastAround;
   }
 
  private:
-  std::uint32_t occupied(const VoxelKey& block) const {
-    const std::uint32_t number = blocks_.find(block);
-    return number == VoxelTable::kNone ? 0 : occupied_[number];
-  }
-
-  VoxelTable blocks_;  // of four voxels' edge
-  std::vector<std::uint32_t> occupied_;
+  std::size_t num_fine_;
+  VoxelTable table_;
+  std::vector<std::uint32_t> occupied_;  // in the order of its keys
 };
 
-double dimension(std::size_t num_fine, std::size_t num_coarse) {
-  return std::log2(static_cast<double>(num_fine) / static_cast<double>(num_coarse));
-}
+// What a sample of places says, which depends on no order.
+struct Isolation {
+  double share = 0;                          // of a level's voxels
+  std::size_t num_kept = 0, num_coarse = 0;  // voxels that are not isolated, and those at twice the edge
+};
 
-// Without the isolated voxels, where they are many: each stays one at any edge, and many would hide the surfaces.
-// Whether they are, and the dimension then, comes of a sample of places, which depends on no order.
-double dimension_of_surfaces(const Octave& octave) {
-  const double of_all = dimension(octave.num_fine, octave.coarse.size());
-  // Saves time: left out, so many leave less than a line even if each has a coarse voxel to itself.
-  const auto most = static_cast<std::size_t>(kMostIsolated * static_cast<double>(octave.num_fine));
-  if (most < octave.coarse.size() && dimension(octave.num_fine - most, octave.coarse.size() - most) <= kLine) {
-    return of_all;
-  }
-  const Surroundings surroundings(octave);
+Isolation isolation(const Octave& octave) {
   std::size_t one_of = 1;
-  while (octave.coarse.size() / one_of > kPlacesAsked) one_of *= 2;
-  std::size_t num_isolated = 0, num_kept = 0, num_coarse = 0;
-  for (std::size_t i = 0; i < octave.coarse.size(); ++i) {
-    if (VoxelKeyHash{}(octave.coarse[i]) % one_of != 0) continue;
-    if (surroundings.isolate(octave.coarse[i])) {
-      num_isolated += octave.occupied[i];
+  while (octave.coarse().size() / one_of > kPlacesAsked) one_of *= 2;
+  std::size_t num_isolated = 0;
+  Isolation out;
+  for (std::size_t i = 0; i < octave.coarse().size(); ++i) {
+    if (one_of > 1 && VoxelKeyHash{}(octave.coarse()[i]) % one_of != 0) continue;
+    if (octave.is_isolated(i)) {
+      num_isolated += octave.occupied(i);
     } else {
-      num_kept += octave.occupied[i];
-      ++num_coarse;
+      out.num_kept += octave.occupied(i);
+      ++out.num_coarse;
     }
   }
-  const double share = static_cast<double>(num_isolated) / static_cast<double>(num_isolated + num_kept);
-  const bool are_left_out = share > kFewIsolated && share <= kMostIsolated && num_coarse >= kLeastVoxels;
-  return are_left_out ? dimension(num_kept, num_coarse) : of_all;
+  if (num_isolated > 0)
+    out.share = static_cast<double>(num_isolated) / static_cast<double>(num_isolated + out.num_kept);
+  return out;
+}
+
+// Each isolated point stays one voxel at any edge, while the others' merge: its share grows, and many would hide the
+// surfaces. Where the share falls, voxels are isolated because surfaces are sparse there, and count.
+bool are_left_out(const Isolation& here, const Isolation& below) {
+  return here.share > below.share && here.share > kFewIsolated && here.share <= kMostIsolated &&
+         here.num_coarse >= kLeastVoxels;
 }
 
 }  // namespace
@@ -108,18 +92,23 @@ double coverage_m(const Points& points, double extent_m) {
   VoxelTable table;
   for (const auto& p : points) table.find_or_insert(voxel_key(p, edge_m));
   std::vector<VoxelKey> keys = table.keys();
-  double before = 0;  // dimension one octave below
+  double dimension_below = 0;  // one octave
+  Isolation below{1};
   while (true) {
-    Octave octave(keys);
-    if (octave.coarse.size() < kLeastVoxels) return 0;
-    const double here = dimension_of_surfaces(octave);
-    if (here > kLine) {
+    const Octave octave(keys);
+    if (octave.coarse().size() < kLeastVoxels) return 0;
+    const Isolation here = isolation(octave);
+    const double dimension = are_left_out(here, below)
+                                 ? std::log2(static_cast<double>(here.num_kept) / static_cast<double>(here.num_coarse))
+                                 : octave.dimension();
+    if (dimension > kLine) {
       // Counts at an edge and at twice as much tell the dimension half-way between, which is where it is reached.
-      const double share = (kLine - before) / (here - before);
+      const double share = (kLine - dimension_below) / (dimension - dimension_below);
       return edge_m * std::exp2(share - 0.5);
     }
-    before = here;
-    keys = std::move(octave.coarse);
+    dimension_below = dimension;
+    below = here;
+    keys = octave.coarse();
     edge_m *= 2;
   }
 }

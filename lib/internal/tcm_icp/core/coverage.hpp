@@ -8,9 +8,10 @@ namespace tcm_icp {
 /// Voxel edge [m] below which points are lines or single points, and above which they cover surfaces: where the number
 /// of occupied voxels begins to fall faster than that of points on lines does, by half for each doubling of the edge.
 /// A spinning scanner's points are dense along a ring and far apart between rings: their spacing says nothing of it.
-/// Counted at edges doubled from `extent_m` / 4096 on, and interpolated between them. Where a tenth to a half of an
-/// edge's voxels have fewer than eight others around (in 12 x 12 x 12, where a line has twelve), these are left out of
-/// its counts: isolated points (rain, birds, a sensor's faults) are one voxel each at any edge. Scales with the points.
+/// Counted at edges doubled from `extent_m` / 4096 on, and interpolated between them. Scales with the points.
+/// Isolated points (rain, birds, a sensor's faults) are one voxel each at any edge. Voxels are left out of an edge's
+/// counts that have fewer than three others in the 6 x 6 x 6 around, where a line has six, if they are a tenth to six
+/// tenths of all, and more than at half the edge.
 /// @param extent_m  > 0; about the size of the scan
 /// @return          0 where the points never cover anything: fewer than 64, or on a line
 /// Cost O(N): coarser counts are taken over the finer ones' voxels.
