@@ -6,7 +6,7 @@
 Tables 1-4 (time, iterations, RMS, error due to isolated points and feature blurring), bar charts, curves over noise,
 occlusion and removal, and pictures, as CSV, Markdown, LaTeX and PNG. Data sets 1-4 after the paper are simulated: urban,
 street, canopy, street (another seed). --scenes takes your own instead: folders of scans with a truth.json. Full: medians
-over 5 seeds with their range, 2 hours on one core. --quick: smaller scans, one seed, one level, some 4 minutes on 2
+over 5 seeds with their range, an hour on one core. --quick: smaller scans, one seed, one level, some 4 minutes on 2
 cores.
 
 --cell SET KIND PERCENT SEED METHOD repeats one measurement, from the simulation to the figures, and prints them beside
@@ -53,7 +53,7 @@ from paper.table_rows import table
 QUICK = Extent("quick", (1,), (30,), QUICK_SAMPLING, (*QUICK_SCENES, *ROUGH_POSES), 120)
 PICTURED = "none", 0
 # Processor time of one run with its evaluation [s], measured on two cores of an AMD EPYC: for the plan.
-SECONDS = {"full": {"robust": 4, "paper": 4, "icp": 14, "features": 18}, "quick": {"robust": 2, "paper": 2, "icp": 5, "features": 7}}
+SECONDS = {"full": {"robust": 4, "paper": 4, "icp": 5, "features": 7}, "quick": {"robust": 2, "paper": 2, "icp": 3, "features": 4}}
 PUBLISHED = REPOSITORY / "docs" / "results" / "cells.csv"
 
 

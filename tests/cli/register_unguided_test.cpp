@@ -86,6 +86,18 @@ TEST_F(RegisterUnguided, PlacesEveryScanOfTheTown) {
   }
 }
 
+// A fifth of all points hangs in the air, as in rain or snow: so many that k-means takes them for clusters.
+TEST_F(RegisterUnguided, AmongIsolatedPoints) {
+  ASSERT_EQ(run(Words{"degrade", "--isolated", "0.2", "--seed", "1", "--out", "rain"} + town_scans()).exit_code, 0);
+  Words scans;
+  for (const std::string& file : town_scans()) {
+    scans.push_back((folder() / "rain" / std::filesystem::path(file).filename()).string());
+  }
+  const RunResult result = register_to("result", scans);
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  expect_all_right(poses("result"));
+}
+
 TEST_F(RegisterUnguided, LevelledScansUpright) {
   const RunResult result = register_to("result", town_scans() + kSmall + Words{"--level"});
   ASSERT_EQ(result.exit_code, 0) << result.err;

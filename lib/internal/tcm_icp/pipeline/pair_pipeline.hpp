@@ -12,7 +12,7 @@
 namespace tcm_icp {
 
 /// Registers the scans by `method`, one of whose name is reported. Files are read, sampled and, where the options ask
-/// for it, rid of outliers as in Pipeline::run; the method sees one point a coarse voxel of each scan. Every scan is
+/// for it, rid of outliers as in Pipeline::run; the method sees one point a fine voxel of each scan. Every scan is
 /// registered: a conventional method has no verdict. Whether its pair converged stands in the reason and the report.
 /// @param initial_poses  one a scan; a pair starts from them where both its scans have one
 /// @throws InputError, InvalidInput, InvalidOptions, Cancelled  as Pipeline::run
