@@ -90,8 +90,7 @@ PipelineResult run_pairs(std::span<const ScanInput> inputs, const InitialPoses& 
   for (const auto& s : scans) result.scans.push_back(summarize(s));
   result.warnings = warn_of_units(result.scans, context);
   clock.begin("prepare");
-  result.coarse_voxel_m = result.fine_voxel_m =
-      choose_resolutions(scans, options.sampling, context.num_threads).fine_m;
+  result.coarse_voxel_m = result.fine_voxel_m = choose_resolutions(scans, options.sampling, context.num_threads).fine_m;
   const PairInput input = pair_input(scans, initial_poses, result.coarse_voxel_m);
   clock.begin("align pairs");
   PairFits fits = method(input, context);
