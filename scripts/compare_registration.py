@@ -87,14 +87,16 @@ def chosen_size(poses, cpu_s):
     """What a rival says about the voxel sizes it tried: (CPU s without the others, note)."""
     answer = json.loads(poses.read_text(encoding="utf-8"))
     if "chosen_multiple" not in answer:
-        return "", ""
+        return None, ""
     chosen = answer["chosen_multiple"]
     tried = [f"{t['multiple']:g}" + ("(time)" if t.get("out_of_time") else "") for t in answer["tried"]]
     cpu_s -= sum(t["cpu_s"] for t in answer["tried"] if t["multiple"] != chosen)
-    return f"{cpu_s:.1f}", f"voxel {chosen:g} x spacing of {', '.join(tried)}"
+    return cpu_s, f"voxel {chosen:g} x spacing of {', '.join(tried)}"
 
 
-def row_of(scene, method, options):
+def run_of(scene, method, options):
+    """One run with its score: scene, method, scans, ok, flagged, wrong, cpu_s, one_size_s (None: one was tried), wall_s, peak_mb, note,
+    unanswered."""
     work = options.out / scene.name / method
     shutil.rmtree(work, ignore_errors=True)
     work.mkdir(parents=True)
@@ -104,34 +106,38 @@ def row_of(scene, method, options):
     with open(options.out / "commands.txt", "a", encoding="utf-8") as f:
         f.write(shlex.join(cmd) + "\n")
     code, cpu_s, wall_s, peak_mb = run_pinned(cmd, work / "log.txt", options.core, options.cpu_limit)
-    one_size = ""
+    one_size_s = None
     if poses.exists():
         counts, details = score_poses(scene, poses)
         (work / "score.json").write_text(json.dumps(details, indent=1), encoding="utf-8")
-        one_size, note = chosen_size(poses, cpu_s)
+        one_size_s, note = chosen_size(poses, cpu_s)
     else:
         counts = {"scans": len(files), "ok": 0, "flagged": len(files), "wrong": 0}
         why = "CPU limit" if -code in (signal.SIGXCPU, signal.SIGKILL) else f"exit code {code}"
         note = f"no answer: {why}"
-    return (scene.name, method, f"{counts['ok']}/{counts['scans']}", counts["flagged"], counts["wrong"],
-            f"{cpu_s:.1f}", one_size, f"{wall_s:.1f}", f"{peak_mb:.0f}", note)
+    return {"scene": scene.name, "method": method, **counts, "cpu_s": cpu_s, "one_size_s": one_size_s, "wall_s": wall_s, "peak_mb": peak_mb,
+            "note": note, "unanswered": not poses.exists()}
+
+
+def table_row(r):
+    """In the order of COLUMNS."""
+    one_size = "" if r["one_size_s"] is None else f"{r['one_size_s']:.1f}"
+    return (r["scene"], r["method"], f"{r['ok']}/{r['scans']}", r["flagged"], r["wrong"], f"{r['cpu_s']:.1f}", one_size, f"{r['wall_s']:.1f}",
+            f"{r['peak_mb']:.0f}", r["note"])
 
 
 def markdown(row):
     return "| " + " | ".join(str(cell) for cell in row) + " |"
 
 
-def write_side_by_side(rows, options):
-    measured = []
-    for row in rows:
-        r = dict(zip(COLUMNS, row))
-        ok, scans = map(int, r["scans ok"].split("/"))
-        measured.append({"scene": r["scene"], "method": r["method"], "ok": ok, "scans": scans, "wrong": r["WRONG"], "cpu_s": float(r["CPU s"]),
-                         "peak_mb": float(r["peak MB"]), "unanswered": r["note"].startswith("no answer")})
-    header, table = side_by_side(measured)
-    with open(options.out / "comparison.csv", "w", newline="", encoding="utf-8") as f:
-        csv.writer(f).writerows([header, *table])
-    add_tables(options.out, {"comparison": origin(options.exe)})
+def write_tables(runs, folder):
+    rows = [table_row(r) for r in runs]
+    lines = [markdown(COLUMNS), "|" + "---|" * len(COLUMNS), *map(markdown, rows)]
+    (folder / "table.md").write_text("\n".join(lines) + "\n", encoding="utf-8")
+    header, by_scene = side_by_side(runs)
+    for name, table in (("table.csv", [COLUMNS, *rows]), ("comparison.csv", [header, *by_scene])):
+        with open(folder / name, "w", newline="", encoding="utf-8") as f:
+            csv.writer(f).writerows(table)
 
 
 def check_programs(options):
@@ -166,20 +172,17 @@ def main():
     options.out.mkdir(parents=True, exist_ok=True)
     (options.out / "commands.txt").write_text(shlex.join(sys.argv) + "\n", encoding="utf-8")
     scenes = sorted(p.parent for p in options.scenes.glob("*/truth.json"))
-    rows = []
+    runs = []
     for scene in scenes:
         if options.only and scene.name not in options.only:
             continue
         for method in options.methods:
-            rows.append(row_of(scene, method, options))
-            print(markdown(rows[-1]), file=sys.stderr, flush=True)
-            table = [markdown(COLUMNS), "|" + "---|" * len(COLUMNS), *map(markdown, rows)]
-            (options.out / "table.md").write_text("\n".join(table) + "\n", encoding="utf-8")
-            with open(options.out / "table.csv", "w", newline="", encoding="utf-8") as f:
-                csv.writer(f).writerows([COLUMNS, *rows])
-    if not rows:
+            runs.append(run_of(scene, method, options))
+            print(markdown(table_row(runs[-1])), file=sys.stderr, flush=True)
+            write_tables(runs, options.out)
+    if not runs:
         sys.exit(f"compare_registration.py: {options.scenes}: no folder in it has a truth.json")
-    write_side_by_side(rows, options)
+    add_tables(options.out, {"comparison": origin(options.exe)})
     print((options.out / "table.md").read_text(encoding="utf-8"), end="")
 
 

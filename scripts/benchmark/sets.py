@@ -1,10 +1,9 @@
 """Registration of whole sets without initial poses, ourselves beside the others: compare_registration.py's runs."""
 
 import argparse
-import re
 
 from benchmark.spent import OPEN3D_PYTHON, run, say
-from compare_registration import METHODS, row_of
+from compare_registration import METHODS, run_of
 
 HEADER = ("scene", "program", "ok", "flagged", "WRONG", "scans", "processor time [s]", "times ours", "wall time [s]", "memory [MB]")
 SCENES = {"town": ("--scans", "5"), "interior": ("--scans", "6"), "street": ("--scans", "8"), "plaza": ("--scans", "5")}
@@ -27,9 +26,9 @@ def measure(folder, exe, pcl_multiway, scenes, cpu_limit_s):
     for scene in [*simulated(exe, folder), *scenes]:
         ours_s = None
         for method in METHODS:
-            _, _, ok, flagged, wrong, cpu_s, _, wall_s, memory_mb, note = row_of(scene, method, options)
-            right, scans = map(int, re.fullmatch(r"(\d+)/(\d+)", ok).groups())
-            ours_s = ours_s or float(cpu_s)
-            rows.append((scene.name, method, right, flagged, wrong, scans, cpu_s, f"{float(cpu_s) / ours_s:.1f}", wall_s, memory_mb))
-            say(" ".join(map(str, rows[-1])) + (f" ({note})" if note.startswith("no answer") else ""))
+            r = run_of(scene, method, options)
+            ours_s = ours_s or r["cpu_s"]
+            rows.append((scene.name, method, r["ok"], r["flagged"], r["wrong"], r["scans"], f"{r['cpu_s']:.1f}", f"{r['cpu_s'] / ours_s:.1f}",
+                         f"{r['wall_s']:.1f}", f"{r['peak_mb']:.0f}"))
+            say(" ".join(map(str, rows[-1])) + (f" ({r['note']})" if r["unanswered"] else ""))
     return rows

@@ -20,6 +20,10 @@ constexpr double kMostIsolated = 0.6;       // with more, the rest are patches o
 
 VoxelKey halved(const VoxelKey& k) { return {k.x >> 1, k.y >> 1, k.z >> 1}; }
 
+double dimension_of(std::size_t num_fine, std::size_t num_coarse) {
+  return std::log2(static_cast<double>(num_fine) / static_cast<double>(num_coarse));
+}
+
 // The occupied voxels at twice the edge of a level, with the number of the level's voxels in each: 1 to 8.
 class Octave {
  public:
@@ -33,16 +37,14 @@ class Octave {
 
   const std::vector<VoxelKey>& coarse() const { return table_.keys(); }
   std::uint32_t occupied(std::size_t i) const { return occupied_[i]; }
-  double dimension() const { return std::log2(static_cast<double>(num_fine_) / table_.size()); }
+  double dimension() const { return dimension_of(num_fine_, coarse().size()); }
 
   // Nothing continuous passes by: fewer voxels are occupied in and around a coarse one than a line has.
   bool is_isolated(std::size_t i) const {
-    const VoxelKey& c = coarse()[i];
     std::uint32_t around = occupied_[i];
-    for (int cell = 0; cell < 27 && around < kLeastAround; ++cell) {
-      if (cell == 13) continue;  // itself
-      const std::uint32_t near = table_.find({c.x + cell % 3 - 1, c.y + cell / 3 % 3 - 1, c.z + cell / 9 - 1});
-      if (near != VoxelTable::kNone) around += occupied_[near];
+    for (int n = 0; n < VoxelTable::kBlock && around < kLeastAround; ++n) {
+      const std::uint32_t near = table_.find_in_block(coarse()[i], n);
+      if (near != VoxelTable::kNone && near != i) around += occupied_[near];
     }
     return around < kLeastAround;
   }
@@ -85,22 +87,24 @@ bool are_left_out(const Isolation& here, const Isolation& below) {
          here.num_coarse >= kLeastVoxels;
 }
 
+VoxelTable occupied_by(const Points& points, double edge_m) {
+  VoxelTable table;
+  for (const auto& p : points) table.find_or_insert(voxel_key(p, edge_m));
+  return table;
+}
+
 }  // namespace
 
 double coverage_m(const Points& points, double extent_m) {
   double edge_m = std::ldexp(extent_m, -kFirstHalvings);
-  VoxelTable table;
-  for (const auto& p : points) table.find_or_insert(voxel_key(p, edge_m));
-  std::vector<VoxelKey> keys = table.keys();
+  Octave octave(occupied_by(points, edge_m).keys());
   double dimension_below = 0;  // one octave
   Isolation below{1};
   while (true) {
-    const Octave octave(keys);
     if (octave.coarse().size() < kLeastVoxels) return 0;
     const Isolation here = isolation(octave);
-    const double dimension = are_left_out(here, below)
-                                 ? std::log2(static_cast<double>(here.num_kept) / static_cast<double>(here.num_coarse))
-                                 : octave.dimension();
+    const double dimension =
+        are_left_out(here, below) ? dimension_of(here.num_kept, here.num_coarse) : octave.dimension();
     if (dimension > kLine) {
       // Counts at an edge and at twice as much tell the dimension half-way between, which is where it is reached.
       const double share = (kLine - dimension_below) / (dimension - dimension_below);
@@ -108,7 +112,7 @@ double coverage_m(const Points& points, double extent_m) {
     }
     dimension_below = dimension;
     below = here;
-    keys = octave.coarse();
+    octave = Octave(octave.coarse());
     edge_m *= 2;
   }
 }

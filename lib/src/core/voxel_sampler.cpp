@@ -111,11 +111,9 @@ struct VoxelSampler::Impl {
     for (const std::uint32_t i : order) {
       if (voxels[i].count == 0) continue;
       const Eigen::Vector3d mean = voxels[i].sum / voxels[i].count;
-      const VoxelKey key = table.keys()[i];
-      for (std::int64_t n = 0; n < 27; ++n) {
-        if (n == 13) continue;  // itself
-        const std::uint32_t j = table.find({key.x + n % 3 - 1, key.y + n / 3 % 3 - 1, key.z + n / 9 - 1});
-        if (j == VoxelTable::kNone || voxels[j].count == 0) continue;
+      for (int n = 0; n < VoxelTable::kBlock; ++n) {
+        const std::uint32_t j = table.find_in_block(table.keys()[i], n);
+        if (j == VoxelTable::kNone || j == i || voxels[j].count == 0) continue;
         if ((voxels[j].sum / voxels[j].count - mean).squaredNorm() > reach * reach) continue;
         voxels[i].sum += voxels[j].sum;
         voxels[i].count += voxels[j].count;

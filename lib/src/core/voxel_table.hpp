@@ -50,6 +50,13 @@ class VoxelTable {
     return kNone;
   }
 
+  static constexpr int kBlock = 27;
+
+  /// find() of the n-th voxel, n < kBlock, of those that touch the key's, itself the middle one.
+  std::uint32_t find_in_block(const VoxelKey& key, int n) const {
+    return find({key.x + n % 3 - 1, key.y + n / 3 % 3 - 1, key.z + n / 9 - 1});
+  }
+
  private:
   struct Slot {
     std::uint32_t tag = 0;
