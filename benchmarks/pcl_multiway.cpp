@@ -108,6 +108,14 @@ void refine(Answer& answer, const std::vector<PclCloud>& scans, double voxel_m) 
   place(answer);
 }
 
+/// From clouds about their origins to scans as their files have them.
+void move_to_files_frames(Answer& answer, const std::vector<Eigen::Vector3d>& origins) {
+  const Eigen::Translation3d to_reference(origins[answer.reference]);
+  for (std::size_t k = 0; k < origins.size(); ++k) {
+    if (answer.poses[k]) *answer.poses[k] = to_reference * *answer.poses[k] * Eigen::Translation3d(-origins[k]);
+  }
+}
+
 /// Nothing where the time ran out.
 std::optional<Answer> register_at(const std::vector<PclCloud>& scans, double voxel_m, double deadline_s) {
   std::vector<PclPrepared> prepared;
@@ -141,9 +149,12 @@ nlohmann::json poses_json(const Answer& answer, const std::vector<std::string>& 
 int run(const std::string& out, unsigned seed, double limit_s, const std::vector<std::string>& files) {
   std::srand(seed);  // what PCL's sampling draws from
   std::vector<PclCloud> scans;
+  std::vector<Eigen::Vector3d> origins;
   std::vector<double> spacings;
   for (const auto& file : files) {
-    scans.push_back(pcl_read(file));
+    const PclScan scan = pcl_read(file);
+    scans.push_back(scan.cloud);
+    origins.push_back(scan.origin);
     spacings.push_back(pcl_spacing(scans.back()));
   }
   const double spacing = median_of(spacings);
@@ -168,6 +179,7 @@ int run(const std::string& out, unsigned seed, double limit_s, const std::vector
     chosen = multiple;
   }
   refine(*best, scans, chosen * spacing);
+  move_to_files_frames(*best, origins);
   nlohmann::json json = poses_json(*best, files);
   json["chosen_multiple"] = chosen;
   json["tried"] = tried;

@@ -1,9 +1,7 @@
 #include "pcl_pair.hpp"
 
 #include <pcl/features/fpfh.h>
-#include <pcl/filters/filter.h>
 #include <pcl/filters/voxel_grid.h>
-#include <pcl/io/ply_io.h>
 #include <pcl/registration/icp.h>
 #include <pcl/registration/sample_consensus_prerejective.h>
 
@@ -12,11 +10,14 @@
 #include <stdexcept>
 
 #include "tcm_icp/core/rigid_transform.hpp"
+#include "tcm_icp/io/scan_reader.hpp"
 
 namespace tcm_icp {
 namespace {
 
 using Search = PclSearch<pcl::PointNormal>;
+
+constexpr int kCandidates = 5;  // of each feature
 
 /// How many points of `source`, moved by T, have a neighbour within `reach_m` in the target.
 std::size_t count_near(const PclSurface& source, const PclSurface& target, const Eigen::Isometry3d& T, double reach_m) {
@@ -28,12 +29,18 @@ std::size_t count_near(const PclSurface& source, const PclSurface& target, const
 
 }  // namespace
 
-PclCloud pcl_read(const std::string& file) {
+PclScan pcl_read(const std::string& file) {
+  ScanReader reader(file, ReadAttributes::kNo);
   const auto cloud = pcl::make_shared<pcl::PointCloud<pcl::PointXYZ>>();
-  if (pcl::io::loadPLYFile(file, *cloud) < 0) throw std::runtime_error(file + ": cannot be read");
-  pcl::Indices kept;
-  pcl::removeNaNFromPointCloud(*cloud, *cloud, kept);
-  return cloud;
+  PclScan out{cloud, Eigen::Vector3d::Zero()};
+  for (PointBlock block; reader.read(block);) {
+    if (cloud->empty()) out.origin = block.points.front();
+    for (const Eigen::Vector3d& p : block.points) {
+      const Eigen::Vector3f q = (p - out.origin).cast<float>();
+      cloud->emplace_back(q.x(), q.y(), q.z());
+    }
+  }
+  return out;
 }
 
 double pcl_spacing(const PclCloud& scan) {
@@ -95,6 +102,8 @@ Eigen::Isometry3d pcl_refine(const PclSurface& source, const PclSurface& target,
 
 PclLink pcl_align_pair(const PclPrepared& source, const PclPrepared& target, double voxel_m) {
   PclLink link;
+  // PCL reads past the end of clouds with fewer points than a feature's candidates.
+  if (std::min(source.features->size(), target.features->size()) < std::size_t{kCandidates}) return link;
   const double reach_m = 2.5 * voxel_m;
   pcl::PointCloud<pcl::PointNormal> moved;
   pcl::SampleConsensusPrerejective<pcl::PointNormal, pcl::PointNormal, pcl::FPFHSignature33> coarse;
@@ -105,7 +114,7 @@ PclLink pcl_align_pair(const PclPrepared& source, const PclPrepared& target, dou
   coarse.setTargetFeatures(target.features);
   coarse.setMaximumIterations(50000);
   coarse.setNumberOfSamples(3);
-  coarse.setCorrespondenceRandomness(5);
+  coarse.setCorrespondenceRandomness(kCandidates);
   coarse.setSimilarityThreshold(0.9F);
   coarse.setMaxCorrespondenceDistance(reach_m);
   coarse.setInlierFraction(0.1F);  // the tutorial's 0.25 is for an object that is wholly in the scene

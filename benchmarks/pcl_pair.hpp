@@ -14,9 +14,15 @@ namespace tcm_icp {
 
 using PclCloud = pcl::PointCloud<pcl::PointXYZ>::ConstPtr;
 
-/// Points that are not finite are left out.
-/// @throws std::runtime_error  where the file cannot be read
-PclCloud pcl_read(const std::string& file);
+/// PCL's points are floats: they are relative to the first.
+struct PclScan {
+  PclCloud cloud;
+  Eigen::Vector3d origin;  ///< the first point, in the scan's frame
+};
+
+/// What register reads, by the same reader.
+/// @throws InputError  where the file cannot be read
+PclScan pcl_read(const std::string& file);
 
 /// Median distance to the nearest neighbour.
 double pcl_spacing(const PclCloud& scan);
