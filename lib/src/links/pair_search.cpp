@@ -129,13 +129,18 @@ struct PairSearch::Impl {
     return may_meet(scans[a], scans[b], T_a_b, overlap_distance_m(a));
   }
 
-  /// Of a scan those outside its group, the likeliest first: at most as many as it reaches.
-  /// @param num_wanted  how many scans are asked for theirs
-  std::vector<std::size_t> partners(std::size_t scan, const std::vector<std::size_t>& groups, std::size_t num_wanted) {
+  std::vector<std::size_t> outside_group(std::size_t scan, const std::vector<std::size_t>& groups) const {
     std::vector<std::size_t> out;
     for (std::size_t j = 0; j < scans.size(); ++j) {
       if (groups[j] != groups[scan]) out.push_back(j);
     }
+    return out;
+  }
+
+  /// Of a scan those outside its group, the likeliest first: at most as many as it reaches.
+  /// @param num_wanted  how many scans are asked for theirs
+  std::vector<std::size_t> partners(std::size_t scan, const std::vector<std::size_t>& groups, std::size_t num_wanted) {
+    std::vector<std::size_t> out = outside_group(scan, groups);
     if (out.size() <= reach[scan]) return out;
     const auto keep_best = [&](const std::vector<double>& score, std::size_t count) {
       if (out.size() <= count) return;
@@ -207,8 +212,21 @@ struct PairSearch::Impl {
     return found;
   }
 
+  /// All pairs that partners() would ask for one by one: together they share the scans' height maps and transforms.
+  void screen_partners(const std::vector<bool>& wanted, const std::vector<std::size_t>& groups) {
+    std::set<ScanPairs::value_type> asked;
+    for (std::size_t i = 0; i < scans.size(); ++i) {
+      if (!wanted[i]) continue;
+      const std::vector<std::size_t> others = outside_group(i, groups);
+      if (others.size() <= reach[i]) continue;
+      for (const std::size_t j : others) asked.insert(std::minmax(i, j));
+    }
+    height_maps.scores({asked.begin(), asked.end()});
+  }
+
   /// Pairs of each wanted scan with its likeliest partners outside its group, by what they were tried by.
   std::map<Tried, ScanPairs> pairs(const std::vector<bool>& wanted, const std::vector<std::size_t>& groups) {
+    if (!is_large()) screen_partners(wanted, groups);
     std::set<ScanPairs::value_type> chosen;
     const auto num_wanted = static_cast<std::size_t>(std::count(wanted.begin(), wanted.end(), true));
     for (std::size_t i = 0; i < scans.size(); ++i) {
