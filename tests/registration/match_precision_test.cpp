@@ -133,6 +133,41 @@ TEST(SetPrecisions, DoNotDependOnTheRoundingOfAgreements) {
   for (int draw = 0; draw < 20; ++draw) ASSERT_EQ(precisions(), expected);
 }
 
+// What a street's pilasters do: one match in five is of two faces, a step apart, and all of these draw one way.
+TEST(SetPrecisions, DoubtedMatchesWeighByTheirOwnDeviationWhereItIsLarger) {
+  Rng rng = make_stream(6, "match_precision_test");
+  testing::JointScene scene = testing::joint_scene({.noise_m = kNoise_m, .step_m = 0}, rng);
+  std::vector<std::vector<bool>> doubted;
+  for (auto& link : scene.links) {
+    doubted.emplace_back(link.matches.size(), false);
+    for (std::size_t k = 0; k < link.matches.size(); k += 5) {
+      const double away = link.source < link.target ? 1 : -1;
+      Correspondence& match = link.matches[k];
+      match.source += (away * match.normal.x() > 0 ? 1 : -1) * 8 * kNoise_m * match.normal;
+      doubted.back()[k] = true;
+    }
+  }
+  set_precisions(scene.links);
+  const double believed_m = error_m(scene);
+  set_precisions(scene.links, doubted);
+  for (std::size_t l = 0; l < doubted.size(); ++l) EXPECT_LT(scene.links[l].matches[0].precision, 0.15);
+  EXPECT_LT(error_m(scene), believed_m / 2);
+}
+
+TEST(SetPrecisions, DoubtThatResidualsDoNotBearOutChangesLittle) {
+  Rng rng = make_stream(7, "match_precision_test");
+  testing::JointScene scene = testing::joint_scene({.noise_m = kNoise_m, .step_m = 0}, rng);
+  std::vector<std::vector<bool>> doubted;
+  for (const auto& link : scene.links) {
+    doubted.emplace_back();
+    for (std::size_t k = 0; k < link.matches.size(); ++k) doubted.back().push_back(uniform01(rng) < 0.2);
+  }
+  set_precisions(scene.links, doubted);
+  for (const auto& link : scene.links) {
+    for (const auto& match : link.matches) EXPECT_NEAR(match.precision, 1, 0.2);
+  }
+}
+
 TEST(SetPrecisions, AreFiniteWhereThereIsNothingOrNoErrorToGoBy) {
   std::vector<JointLink> none;
   set_precisions(none);

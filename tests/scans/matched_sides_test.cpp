@@ -64,5 +64,17 @@ TEST_F(MatchedSides, WhereOneScanKnowsNoSidesAllStay) {
   EXPECT_EQ(m.size(), 10u) << "whichever way a normal points";
 }
 
+// 10 of a floor, 5 of a wall between both scanners.
+TEST_F(MatchedSides, GuessedPlacesMakeOppositeOnesDoubtedAndDropNone) {
+  Sight guess;
+  guess.guessed_places = behind_.places;
+  Correspondences m = matches(10, 5);
+  drop_opposed(target_, guess, T_target_source_, m);
+  ASSERT_EQ(m.size(), 15u);
+  const std::vector<bool> doubted = may_be_opposed(target_, guess, T_target_source_, m);
+  for (std::size_t k = 0; k < m.size(); ++k) EXPECT_EQ(doubted[k], k >= 10) << k;
+  for (const bool any : may_be_opposed(target_, Sight{}, T_target_source_, m)) EXPECT_FALSE(any) << "not even a guess";
+}
+
 }  // namespace
 }  // namespace tcm_icp

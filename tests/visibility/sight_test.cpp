@@ -38,6 +38,8 @@ TEST(Sight, NeedsAViewpointThatIsDetermined) {
   EXPECT_FALSE(make_sight(std::nullopt, points, surfaces).knows_sides());
   Viewpoint viewpoint{Vector3d(0, 0, 2), 0.5, 0, 10, {}};
   EXPECT_FALSE(make_sight(viewpoint, points, surfaces).knows_sides()) << "half of the points hidden";
+  EXPECT_EQ(make_sight(viewpoint, points, surfaces).side(Vector3d(1, 0, 0), kUp), 0);
+  EXPECT_EQ(make_sight(viewpoint, points, surfaces).guessed_side(Vector3d(1, 0, 0), kUp), 1) << "a guess all the same";
   viewpoint.hidden_share = 0;
   viewpoint.radius_m = 1;  // a tenth of the extent: sides, but no space
   EXPECT_TRUE(make_sight(viewpoint, points, surfaces).knows_sides());
@@ -45,6 +47,8 @@ TEST(Sight, NeedsAViewpointThatIsDetermined) {
   viewpoint.radius_m = 0.1;
   const Sight sight = make_sight(viewpoint, points, surfaces);
   EXPECT_TRUE(sight.sees_space());
+  EXPECT_TRUE(sight.guessed_places.empty());
+  EXPECT_EQ(sight.guessed_side(Vector3d(1, 0, 0), -kUp), -1);
   EXPECT_EQ(sight.facing, (Points{kUp, kUp, kUp}));
 }
 

@@ -43,6 +43,7 @@ std::vector<JointLink> match_pairs(const std::vector<PreparedScan>& scans, const
     ++num_neighbors[b];
   }
   const CorrespondenceGate gate{max_distance_m, kNormalAngle};
+  std::vector<std::vector<bool>> doubted(links.size());
   parallel_for(num_threads, links.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       JointLink& link = links[k];
@@ -53,6 +54,7 @@ std::vector<JointLink> match_pairs(const std::vector<PreparedScan>& scans, const
           find_correspondences(part_of(source.fine_sample, link.target, parts_for(num_neighbors[link.source])),
                                T_target_source, target.fine, gate);
       drop_opposed(target.sight, source.sight, T_target_source, link.matches);
+      doubted[k] = may_be_opposed(target.sight, source.sight, T_target_source, link.matches);
       for (auto& m : link.matches) {
         m.source = T * m.source;
         m.target = T * m.target;
@@ -61,7 +63,7 @@ std::vector<JointLink> match_pairs(const std::vector<PreparedScan>& scans, const
       link.matches = in_budget(std::move(link.matches));
     }
   });
-  set_precisions(links);
+  set_precisions(links, doubted);
   return links;
 }
 

@@ -25,12 +25,18 @@ std::vector<double> class_borders(std::vector<double> agreements) {
 
 }  // namespace
 
-void set_precisions(std::vector<JointLink>& links) {
-  std::vector<double> agreements, distances;
-  for (const auto& link : links) {
-    for (const auto& match : link.matches) {
-      agreements.push_back(match.agreement);
-      distances.push_back(plane_distance_m(match));
+void set_precisions(std::vector<JointLink>& links, const std::vector<std::vector<bool>>& doubted) {
+  const auto is_doubted = [&](std::size_t link, std::size_t match) { return !doubted.empty() && doubted[link][match]; };
+  std::vector<double> agreements, distances, doubted_distances;
+  for (std::size_t l = 0; l < links.size(); ++l) {
+    for (std::size_t m = 0; m < links[l].matches.size(); ++m) {
+      const Correspondence& match = links[l].matches[m];
+      if (is_doubted(l, m)) {
+        doubted_distances.push_back(plane_distance_m(match));
+      } else {
+        agreements.push_back(match.agreement);
+        distances.push_back(plane_distance_m(match));
+      }
     }
   }
   if (distances.empty()) return;
@@ -45,13 +51,20 @@ void set_precisions(std::vector<JointLink>& links) {
   for (std::size_t i = 0; i < distances.size(); ++i) of_class[class_of(agreements[i])].push_back(distances[i]);
 
   const double typical_m = median(distances);
+  const auto precision_of = [&](double own_m) {
+    return typical_m > 0 ? typical_m / std::max(own_m, typical_m / kMaxPrecision) : 1;
+  };
   std::vector<double> precisions;
   for (auto& values : of_class) {
-    const double own_m = values.empty() ? typical_m : median(values);
-    precisions.push_back(typical_m > 0 ? typical_m / std::max(own_m, typical_m / kMaxPrecision) : 1);
+    precisions.push_back(precision_of(values.empty() ? typical_m : median(values)));
   }
-  for (auto& link : links) {
-    for (auto& match : link.matches) match.precision = precisions[class_of(match.agreement)];
+  const double of_doubted = doubted_distances.empty() ? 1 : precision_of(median(doubted_distances));
+  for (std::size_t l = 0; l < links.size(); ++l) {
+    for (std::size_t m = 0; m < links[l].matches.size(); ++m) {
+      Correspondence& match = links[l].matches[m];
+      match.precision = precisions[class_of(match.agreement)];
+      if (is_doubted(l, m)) match.precision = std::min(match.precision, of_doubted);
+    }
   }
 }
 

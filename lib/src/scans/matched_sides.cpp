@@ -13,4 +13,16 @@ void drop_opposed(const Sight& target, const Sight& source, const Eigen::Isometr
   });
 }
 
+std::vector<bool> may_be_opposed(const Sight& target, const Sight& source, const Eigen::Isometry3d& T_target_source,
+                                 const Correspondences& matches) {
+  const Eigen::Isometry3d T_source_target = T_target_source.inverse();
+  std::vector<bool> out;
+  for (const Correspondence& m : matches) {
+    out.push_back(target.guessed_side(m.target, m.normal) *
+                      source.guessed_side(T_source_target * m.source, T_source_target.linear() * m.normal) <
+                  0);
+  }
+  return out;
+}
+
 }  // namespace tcm_icp

@@ -2,6 +2,7 @@
 // Matches of a wall's two faces, which are no matches.
 
 #include <Eigen/Geometry>
+#include <vector>
 
 #include "tcm_icp/registration/correspondences.hpp"
 #include "tcm_icp/visibility/sight.hpp"
@@ -14,5 +15,10 @@ namespace tcm_icp {
 /// @param matches  in the target's frame, with the source moved by T_target_source
 void drop_opposed(const Sight& target, const Sight& source, const Eigen::Isometry3d& T_target_source,
                   Correspondences& matches);
+
+/// Of each match whether its surfaces would be such, by the most likely places the two scans were taken from, however
+/// sure those are. As the matches are. Cost: the matches.
+std::vector<bool> may_be_opposed(const Sight& target, const Sight& source, const Eigen::Isometry3d& T_target_source,
+                                 const Correspondences& matches);
 
 }  // namespace tcm_icp

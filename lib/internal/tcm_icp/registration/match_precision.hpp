@@ -14,7 +14,9 @@ namespace tcm_icp {
 /// by motion, all precisions are about 1. Eight classes of as many matches each, fewer where there are not enough; at
 /// most kMaxPrecision. Precisions that were set before count for nothing. Cost O(N log N). The result does not depend
 /// on the links' order.
-void set_precisions(std::vector<JointLink>& links);
+/// @param doubted  of each link, whether each match may be none, two faces of one thing: they weigh by their own
+///                 deviation as well, where that is larger. Empty: none
+void set_precisions(std::vector<JointLink>& links, const std::vector<std::vector<bool>>& doubted = {});
 
 /// Surfaces that fit without error do not silence the others, which may be alone in determining some direction.
 constexpr double kMaxPrecision = 10;

@@ -12,6 +12,8 @@ namespace tcm_icp {
 struct Sight {
   /// The viewpoint and its alternatives; none where it is not even roughly determined.
   Points places;
+  /// The same where it is not: a guess, to be weighed by what else bears it out. None where `places` has any.
+  Points guessed_places;
   /// From these places; none where the viewpoint is not determined: such a scan does not judge others.
   std::vector<RangeImage> images;
   /// Normals of a cloud's points turned towards the scanner; zero where the point has none, or its side is not
@@ -23,6 +25,8 @@ struct Sight {
   /// The side of a surface that the scanner was on: 1 where the normal points to, -1 away from it; 0 where that is not
   /// known, since the places do not agree.
   int side(const Eigen::Vector3d& point, const Eigen::Vector3d& normal) const;
+  /// The same, by guessed places where there are no others.
+  int guessed_side(const Eigen::Vector3d& point, const Eigen::Vector3d& normal) const;
 };
 
 /// @param fine      the scan's points, as many as there are, for the images
