@@ -16,8 +16,9 @@ namespace tcm_icp {
 void drop_opposed(const Sight& target, const Sight& source, const Eigen::Isometry3d& T_target_source,
                   Correspondences& matches);
 
-/// Of each match whether its surfaces would be such, by the most likely places the two scans were taken from, however
-/// sure those are. As the matches are. Cost: the matches.
+/// Of each match whether its surfaces would be such, by the most likely places the two scans were taken from, where
+/// these are unsure; none where both know sides, for drop_opposed() is for those. Cost: the matches.
+/// @param matches  the same
 std::vector<bool> may_be_opposed(const Sight& target, const Sight& source, const Eigen::Isometry3d& T_target_source,
                                  const Correspondences& matches);
 
