@@ -16,6 +16,7 @@ Scenes may be named KIND-SCENE: comparison.csv, a row a scene and a column a pro
 Each run is pinned to one core. After --cpu-limit seconds of CPU a rival finishes its first voxel size, begins no other
 pair and answers from the sizes that are done; the run is killed at three times the limit, and its scans count as flagged. DIR gets poses and logs, table.md,
 table.csv, comparison.csv, provenance.json, and the command lines in commands.txt. Scoring: scripts/score_poses.py. Needs numpy.
+It can be interrupted and started again: a run that is finished (its run.json) is not made again, as long as its program and command line are the same.
 """
 
 import argparse
@@ -40,7 +41,7 @@ COLUMNS = ("scene", "method", "scans ok", "flagged", "WRONG", "CPU s", "one size
 from benchmark.side_by_side import side_by_side
 from benchmark.spent import forget_peak
 
-from paper.provenance import add_tables, origin
+from paper.provenance import add_tables, origin, program_id
 
 try:
     from score_poses import score_poses
@@ -94,17 +95,41 @@ def chosen_size(poses, cpu_s):
     return cpu_s, f"voxel {chosen:g} x spacing of {', '.join(tried)}"
 
 
+def program_of(method, options):
+    """What makes a run another one when its version changes."""
+    return {"tcm-icp": options.exe, "pcl": options.pcl}.get(method, HERE / "open3d_multiway.py")
+
+
+def finished(kept, spec):
+    """The run that was made with this program and command line, or None."""
+    try:
+        found = json.loads(kept.read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        return None
+    return found["run"] if found["spec"] == spec else None
+
+
 def run_of(scene, method, options):
-    """One run with its score: scene, method, scans, ok, flagged, wrong, cpu_s, one_size_s (None: one was tried), wall_s, peak_mb, note,
-    unanswered."""
+    """One run with its score, made now or before: scene, method, scans, ok, flagged, wrong, cpu_s, one_size_s (None: one was tried), wall_s,
+    peak_mb, note, unanswered."""
     work = options.out / scene.name / method
-    shutil.rmtree(work, ignore_errors=True)
-    work.mkdir(parents=True)
     files = [s["file"] for s in json.loads((scene / "truth.json").read_text(encoding="utf-8"))["scans"]]
     cmd, poses = command(method, [scene / f for f in files], work, options)
     cmd = [str(c) for c in cmd]
     with open(options.out / "commands.txt", "a", encoding="utf-8") as f:
         f.write(shlex.join(cmd) + "\n")
+    kept, spec = work / "run.json", {"program": program_id(program_of(method, options)), "command": cmd, "cpu_limit_s": options.cpu_limit}
+    run = finished(kept, spec)
+    if run is None:
+        shutil.rmtree(work, ignore_errors=True)
+        work.mkdir(parents=True)
+        run = new_run(scene, method, cmd, poses, len(files), options)
+        kept.write_text(json.dumps({"spec": spec, "run": run}, indent=1), encoding="utf-8")
+    return run
+
+
+def new_run(scene, method, cmd, poses, num_scans, options):
+    work = options.out / scene.name / method
     code, cpu_s, wall_s, peak_mb = run_pinned(cmd, work / "log.txt", options.core, options.cpu_limit)
     one_size_s = None
     if poses.exists():
@@ -112,7 +137,7 @@ def run_of(scene, method, options):
         (work / "score.json").write_text(json.dumps(details, indent=1), encoding="utf-8")
         one_size_s, note = chosen_size(poses, cpu_s)
     else:
-        counts = {"scans": len(files), "ok": 0, "flagged": len(files), "wrong": 0}
+        counts = {"scans": num_scans, "ok": 0, "flagged": num_scans, "wrong": 0}
         why = "CPU limit" if -code in (signal.SIGXCPU, signal.SIGKILL) else f"exit code {code}"
         note = f"no answer: {why}"
     return {"scene": scene.name, "method": method, **counts, "cpu_s": cpu_s, "one_size_s": one_size_s, "wall_s": wall_s, "peak_mb": peak_mb,
