@@ -14,9 +14,9 @@ described at the top of their programs. `CPU s` is all of it, `one size` the sam
 sizes that were not chosen.
 Scenes may be named KIND-SCENE: comparison.csv, a row a scene and a column a program, has a total for each kind.
 Each run is pinned to one core. After --cpu-limit seconds of CPU a rival finishes its first voxel size, begins no other
-pair and answers from the sizes that are done; the run is killed at three times the limit, and its scans count as flagged. DIR gets poses and logs, table.md,
+pair and answers from the sizes that are done; the run is killed at ten times the limit, and its scans count as flagged. DIR gets poses and logs, table.md,
 table.csv, comparison.csv, provenance.json, and the command lines in commands.txt. Scoring: scripts/score_poses.py. Needs numpy.
-It can be interrupted and started again: a run that is finished (its run.json) is not made again, as long as its program and command line are the same.
+It can be interrupted and started again: a run that gave an answer (its run.json) is not made again, as long as its program and command line are the same.
 """
 
 import argparse
@@ -64,8 +64,8 @@ def command(method, scans, work, options):
 
 
 def run_pinned(cmd, log, core, cpu_limit):
-    """(exit code, CPU s, wall s, peak MB) of a program on one core; killed at three times the limit."""
-    hard_limit = int(3 * cpu_limit) + 60
+    """(exit code, CPU s, wall s, peak MB) of a program on one core; killed at ten times the limit."""
+    hard_limit = int(10 * cpu_limit) + 60
 
     def pin():
         os.sched_setaffinity(0, {core})
@@ -124,7 +124,8 @@ def run_of(scene, method, options):
         shutil.rmtree(work, ignore_errors=True)
         work.mkdir(parents=True)
         run = new_run(scene, method, cmd, poses, len(files), options)
-        kept.write_text(json.dumps({"spec": spec, "run": run}, indent=1), encoding="utf-8")
+        if not run["unanswered"]:
+            kept.write_text(json.dumps({"spec": spec, "run": run}, indent=1), encoding="utf-8")
     return run
 
 
