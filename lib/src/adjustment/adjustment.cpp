@@ -5,6 +5,7 @@
 #include <numeric>
 #include <string>
 
+#include "adjustment/scan_bending.hpp"
 #include "registration/joint_normal_equations.hpp"
 #include "registration/link_scores.hpp"
 #include "tcm_icp/core/parallel.hpp"
@@ -32,16 +33,29 @@ std::size_t lp_matches_of_link(std::size_t num_links, LpSolver solver) {
   return std::min(all / std::max<std::size_t>(1, num_links), kLpMatchesOfLink);
 }
 
+/// A scan is taken to be bent only where lines that were swept about one place tell that it spun, and where from.
+ScanBending bending_of(const std::vector<PreparedScan>& scans) {
+  Points places;
+  std::vector<bool> swept;
+  for (const auto& scan : scans) {
+    swept.push_back(scan.sight.swept);
+    places.push_back(scan.sight.swept ? scan.sight.places.front() : Eigen::Vector3d::Zero());
+  }
+  return ScanBending(std::move(places), std::move(swept));
+}
+
 class Adjustment {
  public:
-  Adjustment(const std::vector<PreparedScan>& scans, const ScanPairs& pairs, std::size_t reference,
+  Adjustment(const std::vector<PreparedScan>& scans, const ScanPairs& pairs, std::size_t reference, double block_m,
              const L1FitOptions& lp, const RunContext& context, std::vector<Eigen::Isometry3d>& T_reference_scan)
       : scans_(scans),
         pairs_(pairs),
         reference_(reference),
+        block_m_(block_m),
         lp_(lp),
         context_(context),
-        T_reference_scan_(T_reference_scan) {}
+        T_reference_scan_(T_reference_scan),
+        bending_(bending_of(scans)) {}
 
   /// False where it has no solution, or is none: from some 250 scans on.
   bool lp_step(double gate_m) {
@@ -79,25 +93,29 @@ class Adjustment {
 
   /// False where there is nothing to match or poses have settled, or where the equations have no solution.
   bool least_squares_step(double gate_m) {
-    const std::vector<JointLink> links = match(gate_m);
+    std::vector<JointLink> links = match(gate_m);
+    bending_.set_poses(T_reference_scan_);
+    for (auto& link : links) bending_.straighten(link);
     const double noise_m = robust_noise_m(links), threshold_m = kHuberFactor * noise_m;
     if (!(threshold_m > 0)) return false;
     const std::vector<TwistFrame> frames = scan_frames(scans_, T_reference_scan_);
-    std::vector<LinkSums> sums(links.size());
-    parallel_for(context_.num_threads, links.size(), [&](std::size_t begin, std::size_t end) {
-      for (std::size_t k = begin; k < end; ++k) {
-        sums[k] = huber_sums(links[k], frames[links[k].target], frames[links[k].source], threshold_m);
-      }
-    });
-    JointNormalEquations equations(scans_.size(), reference_);
-    for (std::size_t k = 0; k < links.size(); ++k) equations.add(links[k], sums[k]);
-    const Eigen::VectorXd x = equations.solve();
+    if (record_.num_steps == 0) {
+      bending_.estimate(links, frames, noise_m, block_m_, context_.num_threads);
+      record_.bending_m = bending_.offset_m();
+    }
+    const Eigen::VectorXd x =
+        bending_.any() ? solve_with_bending(links, frames, threshold_m) : solve_for_poses(links, frames, threshold_m);
     if (x.size() == 0) {
       context_.warn("the joint adjustment's equations could not be solved; poses stay as they were");
       return false;
     }
+    const auto unknowns = x.size() / static_cast<Eigen::Index>(scans_.size());
     std::vector<Twist> steps_m(scans_.size());
-    for (std::size_t i = 0; i < steps_m.size(); ++i) steps_m[i] = x.segment<6>(static_cast<Eigen::Index>(6 * i));
+    for (std::size_t i = 0; i < steps_m.size(); ++i) {
+      const auto first = static_cast<Eigen::Index>(i) * unknowns;
+      steps_m[i] = x.segment<kPoseUnknowns>(first);
+      if (bending_.any()) bending_.add_step(i, x.segment<kBendUnknowns>(first + kPoseUnknowns));
+    }
     record_.rms_move_m = move(frames, steps_m);
     ++record_.num_steps;
     return record_.rms_move_m > kSettledMove * noise_m;
@@ -108,6 +126,35 @@ class Adjustment {
  private:
   std::vector<JointLink> match(double gate_m) const {
     return match_pairs(scans_, pairs_, T_reference_scan_, gate_m, context_.num_threads);
+  }
+
+  /// Steps of all unknowns, scan by scan; empty where there is no solution.
+  Eigen::VectorXd solve_for_poses(const std::vector<JointLink>& links, const std::vector<TwistFrame>& frames,
+                                  double threshold_m) const {
+    JointNormalEquations equations(scans_.size(), reference_);
+    add_sums<PoseSums>(equations, links, [&](const JointLink& link) {
+      return huber_sums(link, frames[link.target], frames[link.source], threshold_m);
+    });
+    return equations.solve();
+  }
+
+  Eigen::VectorXd solve_with_bending(const std::vector<JointLink>& links, const std::vector<TwistFrame>& frames,
+                                     double threshold_m) const {
+    JointNormalEquations equations(scans_.size(), reference_, kBentUnknowns);
+    add_sums<BentSums>(equations, links, [&](const JointLink& link) {
+      return bending_.sums(link, frames[link.target], frames[link.source], threshold_m);
+    });
+    bending_.add_prior(equations);
+    return equations.solve();
+  }
+
+  template <typename Sums, typename SumsOf>
+  void add_sums(JointNormalEquations& equations, const std::vector<JointLink>& links, const SumsOf& sums_of) const {
+    std::vector<Sums> sums(links.size());
+    parallel_for(context_.num_threads, links.size(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t k = begin; k < end; ++k) sums[k] = sums_of(links[k]);
+    });
+    for (std::size_t k = 0; k < links.size(); ++k) equations.add(links[k], sums[k]);
   }
 
   /// Root mean square [m] over the scans.
@@ -124,10 +171,12 @@ class Adjustment {
   const std::vector<PreparedScan>& scans_;
   const ScanPairs& pairs_;
   std::size_t reference_;
+  double block_m_;
   const L1FitOptions& lp_;
   const RunContext& context_;
   std::vector<Eigen::Isometry3d>& T_reference_scan_;
   AdjustmentRecord record_;
+  ScanBending bending_;
 };
 
 }  // namespace
@@ -179,7 +228,7 @@ AdjustmentRecord adjust_poses(const std::vector<PreparedScan>& scans, const Scan
                               const Resolutions& resolutions, const AdjustmentOptions& options, const L1FitOptions& lp,
                               const RunContext& context, std::vector<Eigen::Isometry3d>& T_reference_scan,
                               StartingPoses from) {
-  Adjustment adjustment(scans, pairs, reference, lp, context, T_reference_scan);
+  Adjustment adjustment(scans, pairs, reference, resolutions.fine_m, lp, context, T_reference_scan);
   const int lp_steps = options.lp_steps, steps = options.steps;
   const double first_m = kGateInVoxels * resolutions.coarse_m, last_m = kGateInVoxels * resolutions.fine_m;
   const auto gate_m = [&](double share) { return first_m * std::pow(last_m / first_m, std::min(1.0, share)); };

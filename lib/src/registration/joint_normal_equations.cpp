@@ -5,8 +5,8 @@
 
 namespace tcm_icp {
 
-LinkSums huber_sums(const JointLink& link, const TwistFrame& target, const TwistFrame& source, double threshold_m) {
-  LinkSums sums;
+PoseSums huber_sums(const JointLink& link, const TwistFrame& target, const TwistFrame& source, double threshold_m) {
+  PoseSums sums;
   for (const auto& match : link.matches) {
     const double r = residual_m(match);
     const double weight = std::abs(r) <= threshold_m ? 1 : threshold_m / std::abs(r);
@@ -20,30 +20,33 @@ LinkSums huber_sums(const JointLink& link, const TwistFrame& target, const Twist
   return sums;
 }
 
-JointNormalEquations::JointNormalEquations(std::size_t num_scans, std::size_t fixed)
-    : num_scans_(num_scans), fixed_(fixed), rhs_(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(6 * num_scans))) {}
+JointNormalEquations::JointNormalEquations(std::size_t num_scans, std::size_t fixed, int unknowns)
+    : num_scans_(num_scans),
+      fixed_(fixed),
+      unknowns_(unknowns),
+      rhs_(Eigen::VectorXd::Zero(unknowns * static_cast<Eigen::Index>(num_scans))) {}
 
-void JointNormalEquations::add(const JointLink& link, const LinkSums& sums) {
-  add_block(link.target, link.target, sums.tt);
-  add_block(link.target, link.source, sums.ts);
-  add_block(link.source, link.target, sums.ts.transpose());
-  add_block(link.source, link.source, sums.ss);
-  add_rhs(link.target, sums.t);
-  add_rhs(link.source, sums.s);
-  trace_ += sums.ss.trace();
+void JointNormalEquations::add_prior(std::size_t scan, int unknown, double weight, double step) {
+  const int at = place(scan, unknown);
+  entries_.emplace_back(at, at, weight);
+  rhs_[at] += weight * step;
 }
 
-void JointNormalEquations::add_block(std::size_t row, std::size_t column, const Matrix6& block) {
-  if (row == fixed_ || column == fixed_) return;
-  for (int i = 0; i < 6; ++i) {
-    for (int j = 0; j < 6; ++j) {
-      entries_.emplace_back(static_cast<int>(6 * row) + i, static_cast<int>(6 * column) + j, block(i, j));
+void JointNormalEquations::add_block(std::size_t row, std::size_t column,
+                                     const Eigen::Ref<const Eigen::MatrixXd>& block) {
+  // The factorization reads the lower triangle.
+  for (int i = 0; i < unknowns_; ++i) {
+    for (int j = 0; j < unknowns_ && place(column, j) <= place(row, i); ++j) {
+      if (is_fixed(row, i) || is_fixed(column, j)) continue;
+      entries_.emplace_back(place(row, i), place(column, j), block(i, j));
     }
   }
 }
 
-void JointNormalEquations::add_rhs(std::size_t row, const Twist& part) {
-  if (row != fixed_) rhs_.segment<6>(static_cast<Eigen::Index>(6 * row)) += part;
+void JointNormalEquations::add_rhs(std::size_t row, const Eigen::Ref<const Eigen::VectorXd>& part) {
+  for (int i = 0; i < unknowns_; ++i) {
+    if (!is_fixed(row, i)) rhs_[place(row, i)] += part[i];
+  }
 }
 
 Eigen::VectorXd JointNormalEquations::solve() {

@@ -12,29 +12,50 @@ namespace tcm_icp {
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
 /// What one link adds: target and source blocks of J'WJ, and of -J'Wr.
+template <int kUnknowns>
 struct LinkSums {
-  Matrix6 tt = Matrix6::Zero(), ts = Matrix6::Zero(), ss = Matrix6::Zero();
-  Twist t = Twist::Zero(), s = Twist::Zero();
+  using Block = Eigen::Matrix<double, kUnknowns, kUnknowns>;
+  using Part = Eigen::Matrix<double, kUnknowns, 1>;
+  Block tt = Block::Zero(), ts = Block::Zero(), ss = Block::Zero();
+  Part t = Part::Zero(), s = Part::Zero();
 };
+using PoseSums = LinkSums<6>;
 
 /// Weights are Huber's: 1 up to `threshold_m`, then falling with the residual.
-LinkSums huber_sums(const JointLink& link, const TwistFrame& target, const TwistFrame& source, double threshold_m);
+PoseSums huber_sums(const JointLink& link, const TwistFrame& target, const TwistFrame& source, double threshold_m);
 
 class JointNormalEquations {
  public:
-  JointNormalEquations(std::size_t num_scans, std::size_t fixed);
+  /// @param fixed     the scan whose pose stays
+  /// @param unknowns  of a scan: the six of its pose first
+  JointNormalEquations(std::size_t num_scans, std::size_t fixed, int unknowns = 6);
 
-  void add(const JointLink& link, const LinkSums& sums);
+  template <int kUnknowns>
+  void add(const JointLink& link, const LinkSums<kUnknowns>& sums) {
+    add_block(link.target, link.target, sums.tt);
+    add_block(link.target, link.source, sums.ts);
+    add_block(link.source, link.target, sums.ts.transpose());
+    add_block(link.source, link.source, sums.ss);
+    add_rhs(link.target, sums.t);
+    add_rhs(link.source, sums.s);
+    trace_ += sums.ss.template topLeftCorner<6, 6>().trace();
+  }
 
-  /// Zero for the fixed scan and for scans without links; empty where the matrix cannot be factorised. A millionth of
-  /// the mean curvature on the diagonal holds still what the matches do not determine, and nothing else.
+  /// What is known of an unknown of a scan beforehand: that its step comes to `step`, with this weight.
+  void add_prior(std::size_t scan, int unknown, double weight, double step);
+
+  /// Zero for the fixed pose and for scans without links; empty where the matrix cannot be factorised. A millionth of
+  /// the poses' mean curvature on the diagonal holds still what the matches do not determine, and nothing else.
   Eigen::VectorXd solve();
 
  private:
-  void add_block(std::size_t row, std::size_t column, const Matrix6& block);
-  void add_rhs(std::size_t row, const Twist& part);
+  void add_block(std::size_t row, std::size_t column, const Eigen::Ref<const Eigen::MatrixXd>& block);
+  void add_rhs(std::size_t row, const Eigen::Ref<const Eigen::VectorXd>& part);
+  int place(std::size_t scan, int unknown) const { return unknowns_ * static_cast<int>(scan) + unknown; }
+  bool is_fixed(std::size_t scan, int unknown) const { return scan == fixed_ && unknown < 6; }
 
   std::size_t num_scans_, fixed_;
+  int unknowns_;
   double trace_ = 0;
   std::vector<Eigen::Triplet<double>> entries_;
   Eigen::VectorXd rhs_;

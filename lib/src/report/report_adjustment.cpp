@@ -37,6 +37,7 @@ Json adjustment_json(const PipelineResult& result) {
           {"lp_rms_move_m", a.lp_rms_move_m},
           {"steps", a.num_steps},
           {"rms_move_m", a.rms_move_m},
+          {"bending_m", a.bending_m},
           {"outlying_links", outlying},
           {"noise_m", u.noise_m},
           {"block_m", u.block_m},

@@ -29,6 +29,7 @@ int Sight::guessed_side(const Eigen::Vector3d& point, const Eigen::Vector3d& nor
 Sight make_sight(const std::optional<Viewpoint>& viewpoint, const Points& fine, const Cloud& surfaces) {
   Sight sight;
   if (!viewpoint) return sight;
+  sight.swept = viewpoint->determined() && viewpoint->evidence == ViewpointEvidence::kScanLines;
   Points& places = viewpoint->roughly_determined() ? sight.places : sight.guessed_places;
   places = {viewpoint->place};
   places.insert(places.end(), viewpoint->alternatives.begin(), viewpoint->alternatives.end());

@@ -14,6 +14,9 @@ struct Sight {
   Points places;
   /// The same where it is not: a guess, to be weighed by what else bears it out. None where `places` has any.
   Points guessed_places;
+  /// Whether the points lie on lines that were swept about the one place: what lies in one direction was seen at one
+  /// time.
+  bool swept = false;
   /// From these places; none where the viewpoint is not determined: such a scan does not judge others.
   std::vector<RangeImage> images;
   /// Normals of a cloud's points turned towards the scanner; zero where the point has none, or its side is not
