@@ -16,7 +16,7 @@ Scenes may be named KIND-SCENE: comparison.csv, a row a scene and a column a pro
 Each run is pinned to one core. After --cpu-limit seconds of CPU a rival finishes its first voxel size, begins no other
 pair and answers from the sizes that are done; the run is killed at ten times the limit, and its scans count as flagged. DIR gets poses and logs, table.md,
 table.csv, comparison.csv, provenance.json, and the command lines in commands.txt. Scoring: scripts/score_poses.py. Needs numpy.
-It can be interrupted and started again: a run that gave an answer (its run.json) is not made again, as long as its program and command line are the same.
+It can be interrupted and started again: a run that gave an answer (DIR/runs) is not made again, as long as its program and command line are the same.
 """
 
 import argparse
@@ -41,6 +41,7 @@ COLUMNS = ("scene", "method", "scans ok", "flagged", "WRONG", "CPU s", "one size
 from benchmark.side_by_side import side_by_side
 from benchmark.spent import forget_peak
 
+from paper.cells import CellStore
 from paper.provenance import add_tables, origin, program_id
 
 try:
@@ -100,15 +101,6 @@ def program_of(method, options):
     return {"tcm-icp": options.exe, "pcl": options.pcl}.get(method, HERE / "open3d_multiway.py")
 
 
-def finished(kept, spec):
-    """The run that was made with this program and command line, or None."""
-    try:
-        found = json.loads(kept.read_text(encoding="utf-8"))
-    except (OSError, ValueError):
-        return None
-    return found["run"] if found["spec"] == spec else None
-
-
 def run_of(scene, method, options):
     """One run with its score, made now or before: scene, method, scans, ok, flagged, wrong, cpu_s, one_size_s (None: one was tried), wall_s,
     peak_mb, note, unanswered."""
@@ -118,19 +110,20 @@ def run_of(scene, method, options):
     cmd = [str(c) for c in cmd]
     with open(options.out / "commands.txt", "a", encoding="utf-8") as f:
         f.write(shlex.join(cmd) + "\n")
-    kept, spec = work / "run.json", {"program": program_id(program_of(method, options)), "command": cmd, "cpu_limit_s": options.cpu_limit}
-    run = finished(kept, spec)
+    store = CellStore(options.out / "runs")
+    spec = {"scene": scene.name, "method": method, "program": program_id(program_of(method, options)), "command": cmd,
+            "cpu_limit_s": options.cpu_limit}
+    run = store.get(spec)
     if run is None:
         shutil.rmtree(work, ignore_errors=True)
         work.mkdir(parents=True)
-        run = new_run(scene, method, cmd, poses, len(files), options)
+        run = new_run(scene, method, cmd, work, poses, len(files), options)
         if not run["unanswered"]:
-            kept.write_text(json.dumps({"spec": spec, "run": run}, indent=1), encoding="utf-8")
+            store.put(spec, run)
     return run
 
 
-def new_run(scene, method, cmd, poses, num_scans, options):
-    work = options.out / scene.name / method
+def new_run(scene, method, cmd, work, poses, num_scans, options):
     code, cpu_s, wall_s, peak_mb = run_pinned(cmd, work / "log.txt", options.core, options.cpu_limit)
     one_size_s = None
     if poses.exists():
