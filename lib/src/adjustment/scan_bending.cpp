@@ -114,7 +114,7 @@ BentSums ScanBending::sums(const JointLink& link, const TwistFrame& target, cons
   };
   for (const auto& match : link.matches) {
     const double r = residual_m(match);
-    const double root = std::abs(r) <= threshold_m ? 1 : std::sqrt(threshold_m / std::abs(r));
+    const double root = std::sqrt(huber_weight(r, threshold_m));
     auto column = rows.col(filled++);
     column.head<kBentUnknowns>() = -root * gradient(match, link.target, target, match.target);
     column.segment<kBentUnknowns>(kBentUnknowns) = root * gradient(match, link.source, source, match.source);
@@ -145,7 +145,7 @@ ScanBending::Evidence ScanBending::evidence_of(std::size_t scan, const std::vect
     }
   };
   each_match([&](const JointLink&, const Eigen::Vector3d&, const Gradient& g, double r) {
-    curvature.noalias() += std::min(1.0, threshold_m / std::max(std::abs(r), threshold_m)) * g * g.transpose();
+    curvature.noalias() += huber_weight(r, threshold_m) * g * g.transpose();
   });
   Matrix6 of_pose = curvature.topLeftCorner<kPoseUnknowns, kPoseUnknowns>();
   of_pose.diagonal().array() += 1e-6 * of_pose.trace() / kPoseUnknowns + 1e-300;

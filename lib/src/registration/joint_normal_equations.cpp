@@ -1,7 +1,6 @@
 #include "registration/joint_normal_equations.hpp"
 
 #include <Eigen/SparseCholesky>
-#include <cmath>
 
 namespace tcm_icp {
 
@@ -9,7 +8,7 @@ PoseSums huber_sums(const JointLink& link, const TwistFrame& target, const Twist
   PoseSums sums;
   for (const auto& match : link.matches) {
     const double r = residual_m(match);
-    const double weight = std::abs(r) <= threshold_m ? 1 : threshold_m / std::abs(r);
+    const double weight = huber_weight(r, threshold_m);
     const Twist js = residual_gradient(match, source), jt = -residual_gradient(match, target);
     sums.tt += weight * jt * jt.transpose();
     sums.ts += weight * jt * js.transpose();

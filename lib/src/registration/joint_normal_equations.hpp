@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
+#include <cmath>
 #include <vector>
 
 #include "tcm_icp/registration/joint_links.hpp"
@@ -21,7 +22,12 @@ struct LinkSums {
 };
 using PoseSums = LinkSums<6>;
 
-/// Weights are Huber's: 1 up to `threshold_m`, then falling with the residual.
+/// Huber's: 1 up to the threshold, then falling with the residual.
+inline double huber_weight(double residual_m, double threshold_m) {
+  return std::abs(residual_m) <= threshold_m ? 1 : threshold_m / std::abs(residual_m);
+}
+
+/// Weights are Huber's.
 PoseSums huber_sums(const JointLink& link, const TwistFrame& target, const TwistFrame& source, double threshold_m);
 
 class JointNormalEquations {
