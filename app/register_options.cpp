@@ -370,7 +370,9 @@ po::options_description configurable(RegisterOptions& o, Choices& c) {
       "annealing.final-temperature", value(p.refinement.final_temperature),
       "the same, at the end; cooling is geometric")("adjustment.lp-steps", value(p.adjustment.lp_steps),
                                                     "joint linear programs over all poses; 0: none")(
-      "adjustment.steps", value(p.adjustment.steps), "most joint least-squares steps of all poses after them; 0: none");
+      "adjustment.steps", value(p.adjustment.steps), "most joint least-squares steps of all poses after them; 0: none")(
+      "adjustment.bending", value(p.adjustment.bending),
+      "yes or no: how scanners that spun and moved bent their scans is solved for in these steps");
   main.add(survey_options(o.survey))
       .add(cloud_options(o.clouds, c))
       .add(report_options(o.report, c))

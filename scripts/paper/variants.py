@@ -56,6 +56,7 @@ ABLATIONS = (
         Variant("with descent", ("--refinement", "descent")),
         Variant("with annealing", ("--refinement", "annealing")),
         Variant("no joint programs", ("--adjustment.lp-steps", "0")),
+        Variant("no bending of scans", ("--adjustment.bending", "no")),
         Variant("no joint adjustment", ("--adjustment.lp-steps", "0", "--adjustment.steps", "0")),
         Variant("the simplex alone", PLACED_ONLY))),
     # Streets are placed with any one of them left out: they are for places that repeat themselves.

@@ -187,6 +187,39 @@ TEST(AdjustPoses, ThreadsDoNotChangeABit) {
   for (std::size_t i = 0; i < one.size(); ++i) EXPECT_TRUE(one[i].matrix() == two[i].matrix()) << i;
 }
 
+// Each scan as a scanner sees it that spins and moves: a point in direction u lies D u off.
+PreparedScene bent_scene(std::uint64_t seed) {
+  Rng rng = make_stream(seed, "adjustment_test bends");
+  PreparedScene s{testing::synthetic_scene({.num_scans = 4, .points_per_scan = 4000, .noise_m = 0.005}, rng), {}, {}};
+  std::vector<SampledScan> scans;
+  for (std::size_t i = 0; i < s.scene.scans.size(); ++i) {
+    const Eigen::Matrix3d bend_m = Eigen::Matrix3d::NullaryExpr([&] { return 0.1 * standard_normal(rng); });
+    Cloud cloud = s.scene.scans[i];
+    for (auto& p : cloud.points) p += bend_m * p.normalized();
+    scans.push_back(testing::sampled(cloud, std::to_string(i) + ".ply"));
+  }
+  s.resolutions = choose_resolutions(scans, {}, 1);
+  for (const auto& scan : scans) {
+    s.scans.push_back(prepare_scan(scan, s.resolutions, {}, 42));
+    s.scans.back().sight.swept = true;
+    s.scans.back().sight.places = {Eigen::Vector3d::Zero()};
+  }
+  return s;
+}
+
+TEST(AdjustPoses, BendsOfSweptScansAreSolvedForUnlessLeftOut) {
+  const PreparedScene s = bent_scene(7);
+  const auto run = [&](bool bending, std::vector<Isometry3d>& poses) {
+    AdjustmentOptions options;
+    options.bending = bending;
+    return adjust_poses(s.scans, all_pairs(4), 0, s.resolutions, options, {}, {}, poses);
+  };
+  auto with = truth_of(s), without = truth_of(s);
+  EXPECT_GT(run(true, with).bending_m, 0.02);
+  EXPECT_EQ(run(false, without).bending_m, 0);
+  EXPECT_LT(worst_error_m(s, with), worst_error_m(s, without));
+}
+
 TEST(AdjustPoses, StopsWhenAsked) {
   const PreparedScene s = scene({.num_scans = 2, .points_per_scan = 1000}, 6);
   auto poses = disturbed(s, 0.02, 0.1, 6);

@@ -34,12 +34,12 @@ std::size_t lp_matches_of_link(std::size_t num_links, LpSolver solver) {
 }
 
 /// A scan is taken to be bent only where lines that were swept about one place tell that it spun, and where from.
-ScanBending bending_of(const std::vector<PreparedScan>& scans) {
+ScanBending bending_of(const std::vector<PreparedScan>& scans, bool is_wanted) {
   Points places;
   std::vector<bool> swept;
   for (const auto& scan : scans) {
-    swept.push_back(scan.sight.swept);
-    places.push_back(scan.sight.swept ? scan.sight.places.front() : Eigen::Vector3d::Zero());
+    swept.push_back(is_wanted && scan.sight.swept);
+    places.push_back(swept.back() ? scan.sight.places.front() : Eigen::Vector3d::Zero());
   }
   return ScanBending(std::move(places), std::move(swept));
 }
@@ -47,7 +47,8 @@ ScanBending bending_of(const std::vector<PreparedScan>& scans) {
 class Adjustment {
  public:
   Adjustment(const std::vector<PreparedScan>& scans, const ScanPairs& pairs, std::size_t reference, double block_m,
-             const L1FitOptions& lp, const RunContext& context, std::vector<Eigen::Isometry3d>& T_reference_scan)
+             bool bending, const L1FitOptions& lp, const RunContext& context,
+             std::vector<Eigen::Isometry3d>& T_reference_scan)
       : scans_(scans),
         pairs_(pairs),
         reference_(reference),
@@ -55,7 +56,7 @@ class Adjustment {
         lp_(lp),
         context_(context),
         T_reference_scan_(T_reference_scan),
-        bending_(bending_of(scans)) {}
+        bending_(bending_of(scans, bending)) {}
 
   /// False where it has no solution, or is none: from some 250 scans on.
   bool lp_step(double gate_m) {
@@ -228,7 +229,7 @@ AdjustmentRecord adjust_poses(const std::vector<PreparedScan>& scans, const Scan
                               const Resolutions& resolutions, const AdjustmentOptions& options, const L1FitOptions& lp,
                               const RunContext& context, std::vector<Eigen::Isometry3d>& T_reference_scan,
                               StartingPoses from) {
-  Adjustment adjustment(scans, pairs, reference, resolutions.fine_m, lp, context, T_reference_scan);
+  Adjustment adjustment(scans, pairs, reference, resolutions.fine_m, options.bending, lp, context, T_reference_scan);
   const int lp_steps = options.lp_steps, steps = options.steps;
   const double first_m = kGateInVoxels * resolutions.coarse_m, last_m = kGateInVoxels * resolutions.fine_m;
   const auto gate_m = [&](double share) { return first_m * std::pow(last_m / first_m, std::min(1.0, share)); };

@@ -9,6 +9,7 @@
 
 #include "registration/link_scores.hpp"
 #include "tcm_icp/core/parallel.hpp"
+#include "tcm_icp/registration/pose_covariance.hpp"
 
 namespace tcm_icp {
 namespace {
@@ -17,9 +18,8 @@ using BendMatrix = Eigen::Matrix<double, kBendUnknowns, kBendUnknowns>;
 using BentMatrix = Eigen::Matrix<double, kBentUnknowns, kBentUnknowns>;
 
 constexpr int kMaxRounds = 200;
-constexpr double kSettled = 1e-3;         // relative change of the variance: a tenth of a per cent of what it weighs
-constexpr std::size_t kLeastPlaces = 30;  // as for the covariance of poses: the scatter of fewer says little
-constexpr int kAxisBits = 21;             // of a cube's number along an axis: three axes in 64 bits
+constexpr double kSettled = 1e-3;  // relative change of the variance: a tenth of a per cent of what it weighs
+constexpr int kAxisBits = 21;      // of a cube's number along an axis: three axes in 64 bits
 
 /// What one match says of D, and in which cube it lies: cubes of twice the edge are those without the last three bits.
 struct PlacedScore {
@@ -40,6 +40,8 @@ std::uint64_t cube_of(const Eigen::Vector3d& point, const Eigen::Vector3d& centr
 
 /// Squares of the sums over the scores of each cube: of the edge, among the smallest and its doubles, that gives most.
 double squares_of_places(std::vector<PlacedScore>& scores) {
+  // As for the covariance of poses: the scatter of fewer says little.
+  const std::size_t least_places = PoseCovarianceOptions().min_blocks_of_scan;
   std::sort(scores.begin(), scores.end(), [](const auto& a, const auto& b) { return a.cube < b.cube; });
   double most = 0;
   for (int doublings = 0; doublings < kAxisBits; ++doublings) {
@@ -51,7 +53,7 @@ double squares_of_places(std::vector<PlacedScore>& scores) {
       for (; begin < scores.size() && scores[begin].cube >> 3 * doublings == cube; ++begin) sum += scores[begin].score;
       squares += sum.squaredNorm();
     }
-    if (places < kLeastPlaces) break;
+    if (places < least_places) break;
     most = std::max(most, squares);
   }
   return most;

@@ -149,9 +149,9 @@ AdjustmentRecord adjust_once(const StepStore* store, const std::vector<PreparedS
     return adjust_poses(scans, pairs, reference, resolutions, options, lp, context, T, from);
   };
   if (store == nullptr) return adjust(T_reference_scan);
-  const auto& [lp_steps, steps] = options;
-  const StepKey key =
-      step_key("adjustments", digests_of(scans), pairs, reference, lp_steps, steps, lp, T_reference_scan, from);
+  const auto& [lp_steps, steps, bending] = options;
+  const StepKey key = step_key("adjustments", digests_of(scans), pairs, reference, lp_steps, steps, bending, lp,
+                               T_reference_scan, from);
   auto adjusted = do_once<Adjusted>(*store, key, [&] {
     Adjusted out{{}, T_reference_scan};
     out.record = adjust(out.T_reference_scan);

@@ -126,6 +126,7 @@ Json options_json(const PipelineOptions& o, const RunContext& context) {
       {"held_out_points", o.samples.held_out_points},
       {"adjustment_lp_steps", o.adjustment.lp_steps},
       {"adjustment_steps", o.adjustment.steps},
+      {"adjustment_bending", o.adjustment.bending},
       {"confidence", o.decision.confidence},
       {"refinement", name_of(o.merging().refinement.method)},
       {"descent_steps", o.refinement.descent_steps},
