@@ -132,22 +132,20 @@ def fit_scans(options, folder, results):
 
 def draw(tables):
     try:
-        import matplotlib
+        from matplotlib import pyplot
+
+        from paper.print_size import PAGE_IN, save
     except ImportError:
         print("calibrate.py: no diagram: apt install python3-matplotlib")
         return
-    matplotlib.use("Agg")
-    from matplotlib import pyplot
-
-    figure, axes = pyplot.subplots(1, len(tables), figsize=(3.6 * len(tables), 3.6))
+    figure, axes = pyplot.subplots(1, len(tables), figsize=(PAGE_IN, 2.5))
     for axis, (table, rows) in zip(np.atleast_1d(axes), tables):
         stated, observed, count = np.array(rows).T
         axis.plot([0, 1], [0, 1], color="#aaaaaa", linewidth=1)
-        axis.scatter(stated, observed, s=8 + 24 * np.log10(count), color="#1f5fa8")
+        axis.scatter(stated, observed, s=3 + 8 * np.log10(count), color="#1f5fa8")
         axis.set(title=f"{table['model']} (error {table['calibration_error']})", xlabel="stated probability",
                  ylabel="observed share", xlim=(0, 1), ylim=(0, 1))
-    figure.tight_layout()
-    figure.savefig(ROOT / "docs/images/reliability.png", dpi=110)
+    save(figure, ROOT / "docs/images/reliability.png")
 
 
 def main():

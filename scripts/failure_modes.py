@@ -17,16 +17,15 @@ import sys
 from pathlib import Path
 
 try:
-    import matplotlib
+    import matplotlib.pyplot as plt
     import numpy as np
 except ImportError:
     sys.exit("failure_modes.py: apt install python3-numpy python3-matplotlib, and run it with /usr/bin/python3")
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
 
 from paper.executable import find_exe
-from paper.pictures import frame, moved, save, thinned
+from paper.pictures import frame, moved, thinned
 from paper.plan import Extent
+from paper.print_size import PAGE_IN, save
 from paper.provenance import REPOSITORY, record_tables, write_provenance
 from ply import read_points
 
@@ -65,7 +64,7 @@ def draw(kind, scene, result, path):
     truth = {s["file"]: np.array(s["pose"]) for s in json.loads((scene / "truth.json").read_text())["scans"]}
     poses = poses_of(result)
     colours = plt.get_cmap("tab10").colors
-    fig, axes = plt.subplots(1, 2, figsize=(13, 5.5))
+    fig, axes = plt.subplots(1, 2, figsize=(PAGE_IN, 2.9))
     reference = truth[poses["reference"]]
     everything = []
     for k, s in enumerate(poses["scans"]):
@@ -78,9 +77,8 @@ def draw(kind, scene, result, path):
         axes[1].plot(*placed.T, ",", color=colours[k % 10] if s["pose"] else UNPLACED, zorder=2 if s["pose"] else 1)
     for ax, title in zip(axes, ("truth", "registered; grey: flagged, where it should be")):
         frame(ax, np.concatenate(everything))
-        ax.set_title(f"{kind.replace('-', ' ')}: {title}", fontsize=10)
+        ax.set_title(f"{kind.replace('-', ' ')}: {title}")
     save(fig, path)
-    plt.close(fig)
 
 
 def main():

@@ -21,15 +21,14 @@ import time
 from pathlib import Path
 
 try:
-    import matplotlib
+    import matplotlib.pyplot as plt
     import numpy as np
 except ImportError:
     sys.exit("large_sets.py: apt install python3-numpy python3-matplotlib, and run it with /usr/bin/python3")
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
 
 from first_scans import first_scans
 from paper.executable import find_exe
+from paper.print_size import PAGE_IN, save
 from paper.provenance import REPOSITORY
 from score_poses import score_poses
 
@@ -83,7 +82,7 @@ def draw(rows, path):
     """Time against the number of scans with the line of what grows with it, and memory."""
     table = {name: np.array([float(row[k]) for row in rows]) for k, name in enumerate(HEADER)}
     scans, cpu_s, memory_mb = table["scans"], table["processor time [s]"], table["memory [MB]"]
-    fig, (left, right) = plt.subplots(1, 2, figsize=(11, 4))
+    fig, (left, right) = plt.subplots(1, 2, figsize=(PAGE_IN, 2.5))
     left.loglog(scans, cpu_s, "o-", color="#1f77b4", label="measured")
     if len(rows) > 1:
         exponent = np.polyfit(np.log(scans), np.log(cpu_s), 1)[0]
@@ -100,9 +99,7 @@ def draw(rows, path):
         ax.minorticks_off()
         ax.set_xlabel("scans")
         ax.grid(alpha=0.3)
-    fig.tight_layout()
-    fig.savefig(path, dpi=90)
-    plt.close(fig)
+    save(fig, path)
 
 
 def main():

@@ -1,19 +1,12 @@
 """The tables of scripts/bench.py as pictures."""
 
-import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
+from paper.print_size import COLUMN_IN, PAGE_IN, SMALL, save
+
 COLOURS = {"TCM-ICP": "#1f77b4", "PCL": "#d62728", "Open3D": "#2ca02c", "CloudCompare": "#9467bd"}
 METHOD_COLOURS = {"tcm-icp": "#1f77b4", "open3d-ransac": "#2ca02c", "open3d-fgr": "#98df8a", "pcl": "#d62728"}
-
-
-def save(fig, path):
-    fig.tight_layout()
-    fig.savefig(path, dpi=90)
-    plt.close(fig)
 
 
 def grouped_bars(ax, groups, series, values, colours):
@@ -28,25 +21,25 @@ def grouped_bars(ax, groups, series, values, colours):
 
 def draw_files(rows, path):
     values = {(f"{operation} {kind}", program): float(speed) for kind, operation, program, _, _, speed, _ in rows}
-    fig, ax = plt.subplots(figsize=(8, 4))
+    fig, ax = plt.subplots(figsize=(COLUMN_IN, 2.4))
     grouped_bars(ax, list(dict.fromkeys(group for group, _ in values)), [p for p in COLOURS if any(p == q for _, q in values)],
                  values, COLOURS)
     ax.set_yscale("log")
-    ax.legend(fontsize=8)
+    ax.legend()
     ax.set_ylabel("million points a second of one core")
     save(fig, path)
 
 
 def draw_pairs(rows, path):
-    fig, ax = plt.subplots(figsize=(8, 4.5))
+    fig, ax = plt.subplots(figsize=(PAGE_IN, 3.6))
     pairs = list(dict.fromkeys(row[0] for row in rows))
     for pair, name, method, _, ms, _, _, _, rmse, _ in rows:
         at = float(ms), max(float(rmse), 0.1)
         ax.loglog(*at, "os^Dv"[pairs.index(pair) % 5], color=COLOURS[name], alpha=0.8)
-        ax.annotate(method, at, xytext=(4, 3), textcoords="offset points", fontsize=6)
+        ax.annotate(method, at, xytext=(4, 3), textcoords="offset points", fontsize=SMALL)
     handles = [plt.Line2D([], [], marker="o", linestyle="", color=colour, label=name) for name, colour in COLOURS.items()]
     handles += [plt.Line2D([], [], marker="os^Dv"[k % 5], linestyle="", color="#555555", label=pair) for k, pair in enumerate(pairs)]
-    ax.legend(handles=handles, fontsize=8)
+    ax.legend(handles=handles)
     ax.set_xlabel("processor time [ms]")
     ax.set_ylabel("median root mean square error [mm]")
     ax.grid(alpha=0.3, which="both")
@@ -55,21 +48,21 @@ def draw_pairs(rows, path):
 
 def draw_sets(rows, path):
     scenes = list(dict.fromkeys(row[0] for row in rows))
-    fig, (left, right) = plt.subplots(1, 2, figsize=(12, 4))
+    fig, (left, right) = plt.subplots(1, 2, figsize=(PAGE_IN, 2.5))
     methods = [m for m in METHOD_COLOURS if any(m == row[1] for row in rows)]
     grouped_bars(left, scenes, methods, {(row[0], row[1]): 100 * row[2] / row[5] for row in rows}, METHOD_COLOURS)
     grouped_bars(right, scenes, methods, {(row[0], row[1]): float(row[6]) for row in rows}, METHOD_COLOURS)
     left.set_ylabel("scans placed right [%]")
     right.set_ylabel("processor time [s]")
     right.set_yscale("log")
-    right.legend(fontsize=8, loc="upper left", bbox_to_anchor=(1, 1))
+    right.legend(loc="upper left", bbox_to_anchor=(1, 1))
     for ax in (left, right):
         ax.tick_params(axis="x", rotation=20)
     save(fig, path)
 
 
 def draw_growth(rows, path):
-    fig, axes = plt.subplots(1, 3, figsize=(13, 4))
+    fig, axes = plt.subplots(1, 3, figsize=(PAGE_IN, 2.3))
     for ax, what, column in zip(axes, ("points", "scans", "threads"), (3, 2, 1)):
         kept = [row for row in rows if row[0] == what]
         size = np.array([float(row[column]) for row in kept])
@@ -87,7 +80,7 @@ def draw_growth(rows, path):
             ax.minorticks_off()
         ax.set_xlabel("points a scan" if what == "points" else what)
         ax.grid(alpha=0.3)
-        ax.legend(fontsize=8)
+        ax.legend()
     save(fig, path)
 
 

@@ -1,14 +1,13 @@
 """The paper's bar charts and curves."""
 
 import csv
+import textwrap
 
-import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 
 from paper.methods import METHODS
 from paper.plan import CURVES
+from paper.print_size import PAGE_IN, SMALL, save
 from paper.summary import summarize
 
 # A symmetric axis in logarithms: errors run from millimetres to tens of metres.
@@ -23,15 +22,15 @@ def bars(ax, groups, summary_of, title, unit, error_of=None):
             x = i + (j - (len(METHODS) - 1) / 2) * width
             s = summary_of(group, m.key)
             if s.median is None:
-                ax.text(x, LINEAR_BELOW_M / 10, s.text(), rotation=90, fontsize=6, ha="center", va="bottom")
+                ax.text(x, LINEAR_BELOW_M / 10, s.text(), rotation=90, fontsize=SMALL, ha="center", va="bottom")
                 continue
             ax.bar(x, s.median, width, color=m.colour, label=m.name)
             if error_of:
                 low, high = max(s.median - error_of(group, m.key), 0), s.median + error_of(group, m.key)
             else:
                 low, high = s.spread
-            ax.plot([x, x], [low, high], color="black", linewidth=1)
-    ax.set_xticks(range(len(groups)), [g.name.replace(" (", "\n(") for g in groups], fontsize=8)
+            ax.plot([x, x], [low, high], color="black", linewidth=0.8)
+    ax.set_xticks(range(len(groups)), [g.name.replace(" (", "\n(").replace(", ", ",\n") for g in groups])
     ax.set_xlim(-0.6, len(groups) - 0.4)
     ax.set_yscale("symlog", linthresh=LINEAR_BELOW_M)
     ax.set_ylim(bottom=0)
@@ -41,19 +40,17 @@ def bars(ax, groups, summary_of, title, unit, error_of=None):
 
 def bar_charts(folder, groups, results_of, note):
     """Figure of mean cloud-to-cloud distances with standard deviations, and of the RMS."""
-    fig, (left, right) = plt.subplots(1, 2, figsize=(15, 5.5))
+    fig, (left, right) = plt.subplots(1, 2, figsize=(PAGE_IN, 2.9))
     of = lambda value: lambda g, m: summarize(results_of(g, "none", 0, m), value)
     std = of(lambda r: r["c2c_std"])
     bars(left, groups, of(lambda r: r["c2c_mean"]), "(a) cloud-to-cloud distance to the truth, +- standard deviation",
          "[m]", lambda g, m: std(g, m).median or 0)
     bars(right, groups, of(lambda r: r["rms"]), "(b) RMS of 50,000 points", "[m]")
-    fig.suptitle(note, fontsize=9)
+    fig.suptitle(note)
     shown = dict(zip(*reversed(right.get_legend_handles_labels())))
     if shown:
-        fig.legend(shown.values(), shown.keys(), ncol=len(shown), loc="lower center", fontsize=9)
-    fig.tight_layout(rect=(0, 0.05, 1, 1))
-    fig.savefig(folder / "bars.png", dpi=90)
-    plt.close(fig)
+        fig.legend(shown.values(), shown.keys(), ncol=len(shown), loc="lower center")
+    save(fig, folder / "bars.png", rect=(0, 0.06, 1, 1))
     with open(folder / "bars.csv", "w", newline="", encoding="utf-8") as f:
         out = csv.writer(f)
         out.writerow(["data set", "method", "cloud-to-cloud mean [m]", "standard deviation [m]", "RMS [m]"])
@@ -77,7 +74,7 @@ CURVE_VALUES = {"noise": ("RMS [m]", lambda r: r["rms"]), "remove": ("RMS [m]", 
 
 def curves(folder, data_set, levels, results_of, note):
     """One figure a data set: three curves above, the share of right scans below; figures in a CSV beside it."""
-    fig, axes = plt.subplots(2, 3, figsize=(15, 8))
+    fig, axes = plt.subplots(2, 3, figsize=(PAGE_IN, 4.2))
     table = []
     for column, (kind, axis) in enumerate(CURVES.items()):
         unit, value = CURVE_VALUES[kind]
@@ -92,20 +89,19 @@ def curves(folder, data_set, levels, results_of, note):
                         points.append((percent, s.median, *s.spread))
                 if points:
                     x, y, low, high = zip(*points)
-                    ax.plot(x, y, marker="o", markersize=4, color=m.colour, label=m.name,
-                            linewidth=4.5 - order)  # so that equal curves all show
+                    ax.plot(x, y, marker="o", markersize=2.5, color=m.colour, label=m.name,
+                            linewidth=2.4 - 0.5 * order)  # so that equal curves all show
                     ax.fill_between(x, low, high, color=m.colour, alpha=0.15)
             ax.set_xlabel(axis)
-            ax.set_ylabel(name, fontsize=9)
+            ax.set_ylabel(textwrap.fill(name, 28))
             if row == 0:
                 ax.set_yscale("symlog", linthresh=LINEAR_BELOW_M)
                 ax.set_ylim(bottom=0)
             else:
                 ax.set_ylim(-3, 103)
-    axes[0][0].legend(fontsize=8)
-    fig.suptitle(f"{data_set.name}. {note}", fontsize=10)
-    fig.tight_layout()
-    fig.savefig(folder / f"curves-set{data_set.key}.png", dpi=90)
-    plt.close(fig)
+    handles, names = axes[0][0].get_legend_handles_labels()
+    fig.legend(handles, names, ncol=max(1, len(names)), loc="lower center")
+    fig.suptitle(f"{data_set.name}. {note}")
+    save(fig, folder / f"curves-set{data_set.key}.png", rect=(0, 0.05, 1, 1))
     with open(folder / f"curves-set{data_set.key}.csv", "w", newline="", encoding="utf-8") as f:
         csv.writer(f).writerows([["degradation", "percent", "quantity", "method", "value"], *table])

@@ -3,12 +3,10 @@
 import json
 from pathlib import Path
 
-import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
+from paper.print_size import COLUMN_IN, PAGE_IN, save
 from paper.scenes import scan_files
 from ply import coordinates, read_ply, read_points
 
@@ -35,23 +33,17 @@ def frame(ax, xy):
     ax.set_xlabel("[m]")
 
 
-def save(fig, path):
-    fig.tight_layout()
-    fig.savefig(path, dpi=90)
-    plt.close(fig)
-
-
 def before_registration(scene, path, title):
     """Every scan in a colour, as the files have it, from above."""
-    fig, ax = plt.subplots(figsize=(9, 8))
+    fig, ax = plt.subplots(figsize=(COLUMN_IN, 0.9 * COLUMN_IN))
     files = scan_files(scene)
     everything = []
     for i, file in enumerate(files):
         xyz = thinned(read_points(file), POINTS // len(files))
         everything.append(xyz)
-        ax.scatter(xyz[:, 0], xyz[:, 1], s=0.5, color=plt.cm.tab10(i % 10), linewidths=0, label=file.name)
+        ax.scatter(xyz[:, 0], xyz[:, 1], s=0.15, color=plt.cm.tab10(i % 10), linewidths=0, label=file.name)
     frame(ax, np.concatenate(everything)[:, :2])
-    ax.legend(markerscale=12, fontsize=8)
+    ax.legend(markerscale=12)
     ax.set_title(title)
     save(fig, path)
 
@@ -75,12 +67,12 @@ def true_cloud(scene):
 def gallery(rows, path):
     """One row a data set: features and ours, ICP and ours, ours and the truth, from above.
     @param rows  (name, scene, {method: folder of the result or why there is none})"""
-    fig, axes = plt.subplots(len(rows), 3, figsize=(16, 5.2 * len(rows)), squeeze=False)
+    fig, axes = plt.subplots(len(rows), 3, figsize=(PAGE_IN, 2.1 * len(rows)), squeeze=False)
     for (name, scene, results), line in zip(rows, axes):
         truth = true_cloud(scene)
         ours = results["robust"]
         for ax, (other, label) in zip(line, (("features", "feature based"), ("icp", "ICP"), (None, "truth"))):
-            title = f"{name}: {label} (red), TCM-ICP (yellow)"
+            title = f"{name}\n{label} (red), TCM-ICP (yellow)"
             if other is None:
                 red = truth
             elif isinstance(results[other], Path):
@@ -89,14 +81,14 @@ def gallery(rows, path):
                 red, title = None, f"{title}\n{label}: {results[other]}"
             if red is not None:
                 xyz = thinned(red)
-                ax.scatter(xyz[:, 0], xyz[:, 1], s=0.3, color=OTHERS, linewidths=0)
+                ax.scatter(xyz[:, 0], xyz[:, 1], s=0.08, color=OTHERS, linewidths=0)
             if isinstance(ours, Path):
                 xyz = thinned(registered_cloud(scene, ours))
-                ax.scatter(xyz[:, 0], xyz[:, 1], s=0.3, color=OURS, linewidths=0, alpha=0.6)
+                ax.scatter(xyz[:, 0], xyz[:, 1], s=0.08, color=OURS, linewidths=0, alpha=0.6)
             else:
                 title += f"\nTCM-ICP: {ours}"
             frame(ax, truth[:, :2])
-            ax.set_title(title, fontsize=9)
+            ax.set_title(title)
     save(fig, path)
 
 
@@ -113,11 +105,11 @@ def outliers(scene, result, path, title):
     # By their places, since outlier removal tells no numbers; to a tenth of a millimetre of float rounding.
     kept = {tuple(p) for p in np.round(after, 3)}
     removed = np.array([tuple(p) not in kept for p in np.round(before, 3)])
-    fig, (left, right) = plt.subplots(2, 1, figsize=(14, 6), sharex=True, sharey=True)
-    left.scatter(before[:, 0], before[:, 2], s=0.4, color="0.4", linewidths=0)
-    left.scatter(before[removed, 0], before[removed, 2], s=2, color=OTHERS, linewidths=0)
+    fig, (left, right) = plt.subplots(2, 1, figsize=(PAGE_IN, 3.1), sharex=True, sharey=True)
+    left.scatter(before[:, 0], before[:, 2], s=0.12, color="0.4", linewidths=0)
+    left.scatter(before[removed, 0], before[removed, 2], s=0.6, color=OTHERS, linewidths=0)
     left.set_title(f"before: {len(before)} points; red: the {removed.sum()} that are removed")
-    right.scatter(after[:, 0], after[:, 2], s=0.4, color="0.4", linewidths=0)
+    right.scatter(after[:, 0], after[:, 2], s=0.12, color="0.4", linewidths=0)
     right.set_title(f"after: {len(after)} points")
     for ax in (left, right):
         ax.set_aspect("equal")
@@ -134,17 +126,17 @@ def correspondence_graph(scene, result, path, title):
     files = [f.name for f in scan_files(scene)]
     turn = np.pi / 2 - 2 * np.pi * np.arange(len(files)) / len(files)
     at = {f: (np.cos(a), np.sin(a)) for f, a in zip(files, turn)}
-    fig, ax = plt.subplots(figsize=(8, 7))
+    fig, ax = plt.subplots(figsize=(0.8 * COLUMN_IN, 0.75 * COLUMN_IN))
     for a, b in graph["edges"]:
         ax.plot(*zip(at[a], at[b]), color="0.6", zorder=1)
     for f in files:
         is_reference = f == graph["reference"]
-        ax.scatter(*at[f], s=900 if is_reference else 600, color="tab:orange" if is_reference else "tab:blue", zorder=2,
+        ax.scatter(*at[f], s=480 if is_reference else 380, color="tab:orange" if is_reference else "tab:blue", zorder=2,
                    edgecolors="black", linewidths=2 if is_reference else 0.5)
         degree = sum(f in edge for edge in graph["edges"])
-        ax.annotate(f"{Path(f).stem}\n{degree}", at[f], ha="center", va="center", fontsize=8, zorder=3)
+        ax.annotate(f"{Path(f).stem}\n{degree}", at[f], ha="center", va="center", zorder=3)
     ax.set_aspect("equal")
     ax.margins(0.15)
     ax.axis("off")
-    ax.set_title(f"{title}\nname and number of connections; orange: the reference, {graph['reference']}", fontsize=10)
+    ax.set_title(f"{title}\nname and number of connections; orange: the reference, {graph['reference']}")
     save(fig, path)
