@@ -25,7 +25,7 @@ def draw_files(rows, path):
     grouped_bars(ax, list(dict.fromkeys(group for group, _ in values)), [p for p in COLOURS if any(p == q for _, q in values)],
                  values, COLOURS)
     ax.set_yscale("log")
-    ax.legend()
+    ax.legend(ncol=4, loc="lower center", bbox_to_anchor=(0.5, 1))
     ax.set_ylabel("million points a second of one core")
     save(fig, path)
 
@@ -36,7 +36,7 @@ def draw_pairs(rows, path):
     for pair, name, method, _, ms, _, _, _, rmse, _ in rows:
         at = float(ms), max(float(rmse), 0.1)
         ax.loglog(*at, "os^Dv"[pairs.index(pair) % 5], color=COLOURS[name], alpha=0.8)
-        ax.annotate(method, at, xytext=(4, 3), textcoords="offset points", fontsize=SMALL)
+        ax.annotate(method.replace("two gates", "2 gates").replace(" to ", "-"), at, xytext=(4, -8 if pairs.index(pair) % 2 == 0 else 3), textcoords="offset points", fontsize=SMALL)
     handles = [plt.Line2D([], [], marker="o", linestyle="", color=colour, label=name) for name, colour in COLOURS.items()]
     handles += [plt.Line2D([], [], marker="os^Dv"[k % 5], linestyle="", color="#555555", label=pair) for k, pair in enumerate(pairs)]
     ax.legend(handles=handles)
@@ -62,7 +62,7 @@ def draw_sets(rows, path):
 
 
 def draw_growth(rows, path):
-    fig, axes = plt.subplots(1, 3, figsize=(PAGE_IN, 2.3))
+    fig, axes = plt.subplots(1, 3, figsize=(PAGE_IN, 2.5))
     for ax, what, column in zip(axes, ("points", "scans", "threads"), (3, 2, 1)):
         kept = [row for row in rows if row[0] == what]
         size = np.array([float(row[column]) for row in kept])
@@ -80,7 +80,7 @@ def draw_growth(rows, path):
             ax.minorticks_off()
         ax.set_xlabel("points a scan" if what == "points" else what)
         ax.grid(alpha=0.3)
-        ax.legend()
+        ax.legend(ncol=2, loc="lower center", bbox_to_anchor=(0.5, 1), columnspacing=1)
     save(fig, path)
 
 
