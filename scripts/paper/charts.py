@@ -38,6 +38,13 @@ def bars(ax, groups, summary_of, title, unit, error_of=None):
     ax.set_title(title)
 
 
+def legend_below(fig, ax):
+    """What is drawn in one of the figure's axes, each name once."""
+    shown = dict(zip(*reversed(ax.get_legend_handles_labels())))
+    if shown:
+        fig.legend(shown.values(), shown.keys(), ncol=len(shown), loc="lower center")
+
+
 def bar_charts(folder, groups, results_of, note):
     """Figure of mean cloud-to-cloud distances with standard deviations, and of the RMS."""
     fig, (left, right) = plt.subplots(1, 2, figsize=(PAGE_IN, 2.9))
@@ -47,9 +54,7 @@ def bar_charts(folder, groups, results_of, note):
          "[m]", lambda g, m: std(g, m).median or 0)
     bars(right, groups, of(lambda r: r["rms"]), "(b) RMS of 50,000 points", "[m]")
     fig.suptitle(note)
-    shown = dict(zip(*reversed(right.get_legend_handles_labels())))
-    if shown:
-        fig.legend(shown.values(), shown.keys(), ncol=len(shown), loc="lower center")
+    legend_below(fig, right)
     save(fig, folder / "bars.png", rect=(0, 0.06, 1, 1))
     with open(folder / "bars.csv", "w", newline="", encoding="utf-8") as f:
         out = csv.writer(f)
@@ -99,8 +104,7 @@ def curves(folder, data_set, levels, results_of, note):
                 ax.set_ylim(bottom=0)
             else:
                 ax.set_ylim(-3, 103)
-    handles, names = axes[0][0].get_legend_handles_labels()
-    fig.legend(handles, names, ncol=max(1, len(names)), loc="lower center")
+    legend_below(fig, axes[0][0])
     fig.suptitle(f"{data_set.name}. {note}")
     save(fig, folder / f"curves-set{data_set.key}.png", rect=(0, 0.05, 1, 1))
     with open(folder / f"curves-set{data_set.key}.csv", "w", newline="", encoding="utf-8") as f:
