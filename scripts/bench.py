@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 """Measures this program beside PCL, Open3D and CloudCompare in one run: one command, ratios that can be compared.
 
-  bench.py --out DIR [--parts files pairs sets growth volume] [--exe TCM_ICP] [--scenes DIR...] [--points N] [--docs]
+  bench.py --out DIR [--parts files formats pairs sets growth volume] [--exe TCM_ICP] [--scenes DIR...] [--points N] [--docs]
 
   files   reading and writing a cloud of --points points (5 million): PLY, PCD, text
+  formats reading every format, coordinates alone and with all attributes: ours alone
   pairs   registration of a pair from eight starts near the truth
   sets    whole sets without initial poses: simulated scenes, and the folders of scans and truth.json in --scenes
   growth  our own time and memory against points, scans and threads
@@ -30,17 +31,17 @@ try:
 except ImportError:
     sys.exit("bench.py: apt install python3-numpy python3-matplotlib, and run it with /usr/bin/python3")
 
-from benchmark import files, growth, pairs, sets, volume
+from benchmark import files, formats, growth, pairs, sets, volume
 from benchmark.spent import say
 from paper.executable import find_exe
 from paper.provenance import REPOSITORY, add_tables, origin
 
 BUILD = REPOSITORY / "build" / "bench"
 PROGRAMS = BUILD / "benchmarks"
-TARGETS = ("tcm_icp_cloud_io", "tcm_icp_benchmark_registration", "tcm_icp_pcl_multiway")
-TITLES = {"files": "Reading and writing", "pairs": "Registration of a pair", "sets": "Whole sets without initial poses",
-          "growth": "Growth", "volume": "Very many points"}
-MODULES = {"files": files, "pairs": pairs, "sets": sets, "growth": growth, "volume": volume}
+TARGETS = ("tcm_icp_cloud_io", "tcm_icp_benchmark_registration", "tcm_icp_pcl_multiway", "tcm_icp_read_formats")
+TITLES = {"files": "Reading and writing", "formats": "Reading by format", "pairs": "Registration of a pair",
+          "sets": "Whole sets without initial poses", "growth": "Growth", "volume": "Very many points"}
+MODULES = {"files": files, "formats": formats, "pairs": pairs, "sets": sets, "growth": growth, "volume": volume}
 ROUNDS = 3
 
 
@@ -56,6 +57,8 @@ def build():
 def measure(part, work, arguments, exe):
     if part == "files":
         return files.measure(work, PROGRAMS / TARGETS[0], arguments.points, ROUNDS)
+    if part == "formats":
+        return formats.measure(work, PROGRAMS / TARGETS[3], arguments.points)
     if part == "pairs":
         town = REPOSITORY / "datasets" / "town"
         words = [word for scene in [town, *arguments.scenes]

@@ -29,7 +29,7 @@ except ImportError:
 from first_scans import first_scans
 from paper.executable import find_exe
 from paper.print_size import PAGE_IN, save
-from paper.provenance import REPOSITORY
+from paper.provenance import REPOSITORY, add_tables, origin
 from score_poses import score_poses
 
 SIMULATED = ("--scene", "town-grid", "--seed", "5", "--step", "0.4", "--thinning", "0.2")
@@ -123,7 +123,9 @@ def main():
             out.writerow(HEADER)
             out.writerows(sorted(rows))
     draw(sorted(rows), arguments.out / "results-large-sets.png")
+    add_tables(arguments.out, {"large-sets": origin(exe)})
     if arguments.docs:
+        add_tables(REPOSITORY / "docs" / "results", {"large-sets": origin(exe)})
         shutil.copy(arguments.out / "large-sets.csv", REPOSITORY / "docs" / "results")
         shutil.copy(arguments.out / "results-large-sets.png", REPOSITORY / "docs" / "images")
 
