@@ -4,9 +4,10 @@
   step_costs.py --out DIR [--exe TCM_ICP] [--scans 21] [--points 50000000] [--docs]
 
 Simulates a town, gives its first scan so many points (copies of its own, moved by a scanner's noise), and does the steps
-one by one: `sample` of that scan, twice, and of the others, `plan`, `match`, `solve`, and `write` of that scan.
-DIR/step-costs.csv has a row for each, and what the work folder's log says of what was searched; --docs copies it to
-docs/results. About five minutes, 3 GB in DIR. Needs numpy.
+one by one: `sample` of that scan, twice, and of the others, `plan`, `match`, `solve`, and `write` of that scan; then `register`
+of the other scans without a work folder, with an empty one, and with one that has all steps. DIR/step-costs.csv has a row for
+each, and what the log of the steps' work folder says of what was searched; --docs copies it to docs/results. About five minutes,
+3 GB in DIR. Needs numpy.
 """
 
 import argparse
@@ -77,7 +78,16 @@ def measure(exe, scans, out):
     step("match", 1, "match", "--block", "1/1")
     step("solve", len(scans), "solve", *scans, "--out", site)
     step("write, dense scan", 1, "write", scans[0], "--out", site)
-    return rows + searched(work)
+    rows += searched(work)
+
+    kept, result = out / "kept", out / "result"
+    shutil.rmtree(kept, ignore_errors=True)
+    for what, words in (("no work folder", ()), ("an empty work folder", ("--work", kept)), ("all steps there", ("--work", kept))):
+        before = bytes_in(kept)
+        spent = run([exe, "register", *scans[1:], "--out", result, "--force", "--threads", 1, "--quiet", *words], accept=(0, 3))
+        rows.append((f"register, {what}", len(scans) - 1, f"{spent.cpu_s:.2f}", round(spent.memory_mb), bytes_in(kept) - before))
+        print(dict(zip(HEADER, rows[-1])), flush=True)
+    return rows
 
 
 def main():
