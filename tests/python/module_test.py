@@ -54,7 +54,7 @@ class Town(unittest.TestCase):
             self.assertEqual(scan.name, FILES[i].name)
             self.assertEqual(scan.num_points, len(cloud))
             self.assertEqual(scan.verdict, tcm_icp.Verdict.ACCEPTED)
-            self.assertGreaterEqual(scan.probability, 0.7)
+            self.assertGreaterEqual(scan.probability, 0.8)
             if i != self.from_files.reference:
                 self.assertEqual((scan.status, scan.reason), (tcm_icp.Status.REGISTERED, tcm_icp.Reason.ACCEPTED))
                 self.assertGreater(scan.sigma_position_m, 0)
