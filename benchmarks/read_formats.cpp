@@ -5,17 +5,19 @@
 // the processor time of both, the least of three.
 
 #include <algorithm>
-#include <cstring>
+#include <cstdint>
 #include <ctime>
 #include <exception>
 #include <filesystem>
 #include <iostream>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <random>
+#include <stdexcept>
 #include <string>
-#include <utility>
 #include <vector>
 
+#include "io/scalar.hpp"
 #include "tcm_icp/io/registered_cloud_writer.hpp"
 #include "tcm_icp/io/scan_reader.hpp"
 
@@ -24,11 +26,6 @@ namespace {
 
 constexpr double kSideM = 100;
 constexpr int kRounds = 3;
-
-struct Scan {
-  PointBlock block;
-  std::vector<Attribute> attributes;
-};
 
 const std::vector<Attribute> kNone;
 const std::vector<Attribute> kIntensity{{"intensity", ScalarType::kFloat32}};
@@ -65,25 +62,6 @@ const Kind kKinds[]{{"PLY, intensity", CloudFormat::kPly, kIntensity},
 
 bool is_text(CloudFormat format) { return format == CloudFormat::kPtx || format == CloudFormat::kText; }
 
-template <typename T>
-void put(std::byte* at, double value) {
-  const T typed = static_cast<T>(value);
-  std::memcpy(at, &typed, sizeof typed);
-}
-
-void put(std::byte* at, ScalarType type, double value) {
-  switch (type) {
-    case ScalarType::kUInt8:
-      return put<std::uint8_t>(at, value);
-    case ScalarType::kUInt16:
-      return put<std::uint16_t>(at, value);
-    case ScalarType::kFloat32:
-      return put<float>(at, value);
-    default:
-      return put<double>(at, value);
-  }
-}
-
 // Coordinates to a tenth of a millimetre, as scanners have them; values that every type holds.
 PointBlock made_up(std::size_t count, const std::vector<Attribute>& attributes) {
   std::mt19937_64 random(1);
@@ -98,7 +76,7 @@ PointBlock made_up(std::size_t count, const std::vector<Attribute>& attributes) 
   std::byte* at = block.attributes.data();
   for (std::size_t i = 0; i < count; ++i) {
     for (const Attribute& a : attributes) {
-      put(at, a.type, static_cast<double>(1 + random() % 7));
+      store_scalar(static_cast<double>(1 + random() % 7), a.type, at);
       at += scalar_size(a.type);
     }
   }

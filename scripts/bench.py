@@ -3,12 +3,12 @@
 
   bench.py --out DIR [--parts files formats pairs sets growth volume] [--exe TCM_ICP] [--scenes DIR...] [--points N] [--docs]
 
-  files   reading and writing a cloud of --points points (5 million): PLY, PCD, text
-  formats reading every format, coordinates alone and with all attributes: ours alone
-  pairs   registration of a pair from eight starts near the truth
-  sets    whole sets without initial poses: simulated scenes, and the folders of scans and truth.json in --scenes
-  growth  our own time and memory against points, scans and threads
-  volume  ten scans of 100 million points together, beside merely reading and writing them (4 GB in DIR)
+  files    reading and writing a cloud of --points points (5 million): PLY, PCD, text
+  formats  reading every format, coordinates alone and with all attributes: ours alone
+  pairs    registration of a pair from eight starts near the truth
+  sets     whole sets without initial poses: simulated scenes, and the folders of scans and truth.json in --scenes
+  growth   our own time and memory against points, scans and threads
+  volume   ten scans of 100 million points together, beside merely reading and writing them (4 GB in DIR)
 
 DIR gets a CSV file for each part, pictures, tables.md and provenance.json. --docs copies them to docs/results and docs/images. A part's table
 that is there is used again. All parts take about an hour; keep the machine quiet meanwhile. Processor time of one core, all of

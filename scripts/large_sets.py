@@ -123,9 +123,10 @@ def main():
             out.writerow(HEADER)
             out.writerows(sorted(rows))
     draw(sorted(rows), arguments.out / "results-large-sets.png")
-    add_tables(arguments.out, {"large-sets": origin(exe)})
+    origins = {"large-sets": origin(exe)}
+    add_tables(arguments.out, origins)
     if arguments.docs:
-        add_tables(REPOSITORY / "docs" / "results", {"large-sets": origin(exe)})
+        add_tables(REPOSITORY / "docs" / "results", origins)
         shutil.copy(arguments.out / "large-sets.csv", REPOSITORY / "docs" / "results")
         shutil.copy(arguments.out / "results-large-sets.png", REPOSITORY / "docs" / "images")
 

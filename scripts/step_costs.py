@@ -61,17 +61,22 @@ def searched(work):
 
 
 def measure(exe, scans, out):
-    work, site = out / "work", out / "site"
-    for old in (work, site):
+    work, site, kept = out / "work", out / "site", out / "kept"
+    for old in (work, site, kept):
         shutil.rmtree(old, ignore_errors=True)
-    common = ("--work", work, "--threads", 1, "--quiet")
     rows = []
 
-    def step(what, number, *words):
-        before = bytes_in(work) + bytes_in(site)
-        spent = run([exe, *words, *common], accept=(0, 3))
-        rows.append((what, number, f"{spent.cpu_s:.2f}", round(spent.memory_mb), bytes_in(work) + bytes_in(site) - before))
+    def measured(what, number, words, folders):
+        before = sum(map(bytes_in, folders))
+        spent = run([exe, *words, "--threads", 1, "--quiet"], accept=(0, 3))
+        rows.append((what, number, f"{spent.cpu_s:.2f}", round(spent.memory_mb), sum(map(bytes_in, folders)) - before))
         print(dict(zip(HEADER, rows[-1])), flush=True)
+
+    def step(what, number, *words):
+        measured(what, number, (*words, "--work", work), (work, site))
+
+    def whole(what, *words):
+        measured(f"register, {what}", len(scans) - 1, ("register", *scans[1:], "--out", out / "result", "--force", *words), (kept,))
 
     step("sample, dense scan", 1, "sample", scans[0])
     step("sample, where it was there", 1, "sample", scans[0])
@@ -81,14 +86,9 @@ def measure(exe, scans, out):
     step("solve", len(scans), "solve", *scans, "--out", site)
     step("write, dense scan", 1, "write", scans[0], "--out", site)
     rows += searched(work)
-
-    kept, result = out / "kept", out / "result"
-    shutil.rmtree(kept, ignore_errors=True)
-    for what, words in (("no work folder", ()), ("an empty work folder", ("--work", kept)), ("all steps there", ("--work", kept))):
-        before = bytes_in(kept)
-        spent = run([exe, "register", *scans[1:], "--out", result, "--force", "--threads", 1, "--quiet", *words], accept=(0, 3))
-        rows.append((f"register, {what}", len(scans) - 1, f"{spent.cpu_s:.2f}", round(spent.memory_mb), bytes_in(kept) - before))
-        print(dict(zip(HEADER, rows[-1])), flush=True)
+    whole("no work folder")
+    whole("an empty work folder", "--work", kept)
+    whole("all steps there", "--work", kept)
     return rows
 
 
@@ -103,10 +103,11 @@ def main():
     exe = find_exe("step_costs.py", arguments.exe)
     arguments.out.mkdir(parents=True, exist_ok=True)
     rows = measure(exe, simulated(exe, arguments.scans, arguments.points, arguments.out), arguments.out)
+    origins = {"step-costs": origin(exe)}
     for folder in (arguments.out, *([REPOSITORY / "docs" / "results"] if arguments.docs else [])):
         with open(folder / "step-costs.csv", "w", newline="", encoding="utf-8") as f:
             csv.writer(f).writerows([HEADER, *rows])
-        add_tables(folder, {"step-costs": origin(exe)})
+        add_tables(folder, origins)
     for row in rows:
         print(*row, sep="\t")
 
