@@ -27,6 +27,8 @@ class CompatibilityGraph {
   const std::uint64_t* row(std::size_t i) const { return bits_.data() + i * words_; }
   bool joined(std::size_t i, std::size_t j) const { return (row(i)[j / 64] >> (j % 64) & 1U) != 0; }
 
+  std::size_t num_joined(std::size_t i) const;  ///< with it
+
   /// Matches joined with both: the second-order measure of SC2-PCR (Chen et al., 2022).
   int num_common(std::size_t i, std::size_t j) const;
 
@@ -41,10 +43,8 @@ class CompatibilityGraph {
   }
 
  private:
-  void join(std::size_t i, std::size_t j) {
-    bits_[i * words_ + j / 64] |= std::uint64_t{1} << (j % 64);
-    bits_[j * words_ + i / 64] |= std::uint64_t{1} << (i % 64);
-  }
+  // excess[j], of every j above i: below 0 where it is joined with i.
+  void join_those_after(std::size_t i, const float* excess);
 
   std::size_t size_ = 0, words_ = 0;
   std::vector<std::uint64_t> bits_;

@@ -70,6 +70,7 @@ class Search {
   void count_triangles() {
     triangles_.assign(graph_.size(), 0);
     edges_.resize(graph_.size());
+    for (std::size_t i = 0; i < graph_.size(); ++i) edges_[i].reserve(graph_.num_joined(i));
     for (std::size_t i = 0; i < graph_.size(); ++i) {
       graph_.for_each_neighbor(i, [&](std::size_t j) {
         if (j <= i) return;

@@ -28,8 +28,10 @@ std::vector<FeatureMatch> match_features(const Descriptors& target, const Descri
     const Eigen::Index count = std::min(kBlock, source.cols() - first);
     products.noalias() = target.transpose() * source.middleCols(first, count);
     for (Eigen::Index k = 0; k < count; ++k) {
-      Eigen::Index row = 0;
-      const float largest = products.col(k).maxCoeff(&row);
+      // By vectors, and then its place: one walk that keeps both takes three times as long.
+      const float largest = products.col(k).maxCoeff();
+      const float* column = products.col(k).data();
+      const auto row = std::find(column, column + num_targets, largest) - column;
       of_source.push_back({static_cast<std::uint32_t>(row), largest});
     }
     const Eigen::ArrayXf of_block = products.rowwise().maxCoeff().array();

@@ -44,7 +44,11 @@ PairGraph::PairGraph(std::vector<ComparedPair> pairs, std::vector<PointMoments> 
   for (auto& pair : pairs_) {
     std::erase_if(pair.hypotheses,
                   [&](const auto& h) { return !h.implied && h.log_odds + options_.log_poses < kLeastSupported; });
-    for (auto& h : pair.hypotheses) h.mean = h.T_a_b * moments_[pair.b].mean;
+    for (auto& h : pair.hypotheses) {
+      h.mean = h.T_a_b * moments_[pair.b].mean;
+      h.telling = telling(h.overlap);
+      h.most_support = (h.implied ? h.telling : Telling{}).says(odds_found(h, 0));
+    }
   }
   std::erase_if(pairs_, [](const auto& pair) { return pair.hypotheses.empty(); });
   for (std::size_t k = 0; k < pairs_.size(); ++k) {
@@ -58,32 +62,44 @@ PairGraph::PairGraph(std::vector<ComparedPair> pairs, std::vector<PointMoments> 
   }
 }
 
-Agreement PairGraph::agreement(const ComparedPair& pair, const Eigen::Isometry3d& T_a, const Eigen::Isometry3d& T_b,
-                               double taught_by_others) const {
+template <typename Visit>
+void PairGraph::for_agreeing(const ComparedPair& pair, const Eigen::Isometry3d& T_a, const Eigen::Isometry3d& T_b,
+                             Visit visit) const {
   const Eigen::Vector3d mean =
       T_a.linear().transpose() * (T_b * moments_[pair.b].mean - T_a.translation());  // of b in a's frame
-  Agreement best;
   for (const PoseHypothesis& h : pair.hypotheses) {
     if ((h.mean - mean).squaredNorm() >= same_m_ * same_m_) continue;  // points are farther apart than their mean
     const double apart_m = rms_displacement(T_b.inverse() * (T_a * h.T_a_b), moments_[pair.b]);
     if (apart_m >= same_m_) continue;
     const double beyond_m = std::max(apart_m, same_m_ / 8);
-    const double near = options_.log_spread * std::log(8 * beyond_m / same_m_);
-    const double chance = options_.log_poses - (h.implied ? options_.log_implied : 0) - near;
-    const double odds = std::exp(std::min(h.log_odds, options_.most_log_odds) + chance);
-    const Telling implied = telling(h), found = h.implied ? implied : Telling{};
-    const double says = found.says(odds);
-    const double says_of_twins = implied.says(
-        std::exp(std::min(h.log_odds - std::max(0.0, h.taught - taught_by_others), options_.most_log_odds) +
-                 options_.log_poses - options_.log_implied - near));
-    best.against_twins = best.hypothesis == nullptr ? says_of_twins : std::max(best.against_twins, says_of_twins);
-    if (best.hypothesis != nullptr && says <= best.support) continue;
-    best.support = says;
-    best.hypothesis = &h;
-    const double shown = found.shows * odds;
-    best.pull = shown / (found.missed + shown) * options_.log_spread / (beyond_m * beyond_m);
+    visit(h, beyond_m, options_.log_spread * std::log(8 * beyond_m / same_m_));
   }
+}
+
+Agreement PairGraph::agreement(const ComparedPair& pair, const Eigen::Isometry3d& T_a,
+                               const Eigen::Isometry3d& T_b) const {
+  Agreement best;
+  for_agreeing(pair, T_a, T_b, [&](const PoseHypothesis& h, double beyond_m, double near) {
+    const Telling found = h.implied ? h.telling : Telling{};
+    const double odds = odds_found(h, near), says = found.says(odds);
+    if (best.hypothesis != nullptr && says <= best.support) return;
+    const double shown = found.shows * odds;
+    best = {says, &h, shown / (found.missed + shown) * options_.log_spread / (beyond_m * beyond_m)};
+  });
   return best;
+}
+
+SupportAcross PairGraph::support_across(const ComparedPair& pair, const Eigen::Isometry3d& T_a,
+                                        const Eigen::Isometry3d& T_b, double taught_by_others) const {
+  std::optional<SupportAcross> most;
+  for_agreeing(pair, T_a, T_b, [&](const PoseHypothesis& h, double, double near) {
+    const double says = (h.implied ? h.telling : Telling{}).says(odds_found(h, near));
+    const double log_odds = std::min(h.log_odds - std::max(0.0, h.taught - taught_by_others), options_.most_log_odds);
+    const double says_of_twins = h.telling.says(std::exp(log_odds + options_.log_poses - options_.log_implied - near));
+    if (!most) most = {says, says_of_twins};
+    most = {std::max(most->support, says), std::max(most->against_twins, says_of_twins)};
+  });
+  return most.value_or(SupportAcross{});
 }
 
 double PairGraph::constant_without(const std::vector<std::size_t>& pairs) const {
@@ -103,13 +119,13 @@ double PairGraph::constant_without(const std::vector<std::size_t>& pairs) const 
   return set_constant(others, options_.set_spread);
 }
 
-double PairGraph::most_support(const PoseHypothesis& h) const {
-  const double chance = options_.log_poses - (h.implied ? options_.log_implied : 0);
-  return (h.implied ? telling(h) : Telling{}).says(std::exp(std::min(h.log_odds, options_.most_log_odds) + chance));
+double PairGraph::odds_found(const PoseHypothesis& h, double near) const {
+  const double chance = options_.log_poses - (h.implied ? options_.log_implied : 0) - near;
+  return std::exp(std::min(h.log_odds, options_.most_log_odds) + chance);
 }
 
-PairGraph::Telling PairGraph::telling(const PoseHypothesis& h) const {
-  const double log_missed = options_.log_missed * std::min(1.0, h.overlap / options_.telling_overlap);
+Telling PairGraph::telling(double overlap) const {
+  const double log_missed = options_.log_missed * std::min(1.0, overlap / options_.telling_overlap);
   if (options_.log_missed == 0) return {1, 1};
   return {std::exp(log_missed), std::expm1(log_missed) / std::expm1(options_.log_missed)};
 }

@@ -19,6 +19,12 @@ constexpr double kLeastGain = 1e-9;  // of support: less is rounding
 /// farther, and still one pose.
 constexpr double kFittedShare = 0.25;
 
+/// Of a hypothesis at the right pose: it shows nothing, or else something that is likelier there by its odds.
+struct Telling {
+  double missed = 1, shows = 1;  ///< as a search has it that may have missed the pose
+  double says(double odds) const { return std::log(missed + shows * odds); }
+};
+
 /// One pose a pair may have.
 struct PoseHypothesis {
   Eigen::Isometry3d T_a_b = Eigen::Isometry3d::Identity();
@@ -27,7 +33,10 @@ struct PoseHypothesis {
   bool implied = false;
   double overlap = 1;  ///< of the pair there
   double taught = 0;   ///< of the log-odds: the set's constant, as far as `teachers` have taught it
-  Eigen::Vector3d mean = Eigen::Vector3d::Zero();  ///< of b's points, in a's frame; PairGraph's
+  // PairGraph's
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();  ///< of b's points, in a's frame
+  Telling telling = {};                            ///< of one that is implied: the less, the less overlaps
+  double most_support = 0;                         ///< for poses that agree with it exactly
 };
 
 struct ComparedPair {
@@ -39,12 +48,17 @@ struct ComparedPair {
 /// What a pair says of its scans' poses.
 struct Agreement {
   double support = 0;
+  const PoseHypothesis* hypothesis = nullptr;  ///< that says most; none: none agrees
+  double pull = 0;                             ///< [1/m^2] with which it draws the poses to its own
+};
+
+/// What a pair across a cut says of its scans' poses.
+struct SupportAcross {
+  double support = 0;
   /// The same against poses at a twin, a place that looks like the right one to all pairs: that a hypothesis is found
   /// there is no coincidence, implied or not, and only what it shows counts; and what poses at a twin teach of the set
   /// is wrong.
   double against_twins = 0;
-  const PoseHypothesis* hypothesis = nullptr;  ///< that says most; none: none agrees
-  double pull = 0;                             ///< [1/m^2] with which it draws the poses to its own
 };
 
 /// Scans that hold together; poses in the local frame of the reference.
@@ -109,16 +123,16 @@ class PairGraph {
 
   /// The same, with the hypothesis it is due to. Its pull is the weight that makes a step of least squares one of
   /// ascent in the support.
+  Agreement agreement(const ComparedPair& pair, const Eigen::Isometry3d& T_a, const Eigen::Isometry3d& T_b) const;
+
+  /// The same, and against twins.
   /// @param taught_by_others  the set's constant by what poses at a twin would not have taught
-  Agreement agreement(const ComparedPair& pair, const Eigen::Isometry3d& T_a, const Eigen::Isometry3d& T_b,
-                      double taught_by_others = std::numeric_limits<double>::infinity()) const;
+  SupportAcross support_across(const ComparedPair& pair, const Eigen::Isometry3d& T_a, const Eigen::Isometry3d& T_b,
+                               double taught_by_others) const;
 
   /// The set's constant as it would be without these pairs, ascending; infinite where they are too few to matter. Cost:
   /// all hypotheses that taught it.
   double constant_without(const std::vector<std::size_t>& pairs) const;
-
-  /// What a hypothesis says for poses that agree with it exactly.
-  double most_support(const PoseHypothesis& hypothesis) const;
 
   /// What the members of `component` say for `scan` at T, less log_poses, which one pose of many has to be worth. A
   /// single hypothesis of log-odds l above 0 comes to about l; every other that agrees adds log_poses beside its own.
@@ -133,12 +147,13 @@ class PairGraph {
                  std::vector<Eigen::Isometry3d>& known) const;
 
  private:
-  // Of a hypothesis at the right pose: it shows nothing, or else something that is likelier there by its odds.
-  struct Telling {
-    double missed = 1, shows = 1;  // as a search has it that may have missed the pose
-    double says(double odds) const { return std::log(missed + shows * odds); }
-  };
-  Telling telling(const PoseHypothesis& implied) const;  // the less, the less overlaps
+  // Visits the hypotheses that agree with the poses, with their distance beyond which it counts [m] and by how much
+  // less likely that is of a right one.
+  template <typename Visit>
+  void for_agreeing(const ComparedPair& pair, const Eigen::Isometry3d& T_a, const Eigen::Isometry3d& T_b,
+                    Visit visit) const;
+  double odds_found(const PoseHypothesis& h, double near) const;
+  Telling telling(double overlap) const;
 
   std::vector<ComparedPair> pairs_;
   std::vector<PointMoments> moments_;

@@ -19,7 +19,7 @@ PairsAcross::PairsAcross(const PairGraph& graph, const Component& component, con
       double most_support = 0;
       for (const PoseHypothesis& h : pair.hypotheses) {
         hypotheses_.push_back({&h, pairs_.size(), pose(pair.a) * h.mean});
-        most_support = std::max(most_support, graph.most_support(h));
+        most_support = std::max(most_support, h.most_support);
       }
       pairs_.push_back({&pair, pair.b == i, most_support, pose(pair.b) * graph.mean_of(pair.b)});
     }
@@ -41,10 +41,10 @@ bool PairsAcross::is_elsewhere(const Hypothesis& h) const {
                    : !graph_.same_pose(p.pair->a, T_a, T_b * T_a_b.inverse());
 }
 
-Agreement PairsAcross::agreement_of(const Pair& p, const Eigen::Isometry3d& motion) const {
+SupportAcross PairsAcross::support_of(const Pair& p, const Eigen::Isometry3d& motion) const {
   const Eigen::Isometry3d &T_a = pose(p.pair->a), &T_b = pose(p.pair->b);
-  return p.moves_b ? graph_.agreement(*p.pair, T_a, motion * T_b, taught_by_others_)
-                   : graph_.agreement(*p.pair, motion * T_a, T_b, taught_by_others_);
+  return p.moves_b ? graph_.support_across(*p.pair, T_a, motion * T_b, taught_by_others_)
+                   : graph_.support_across(*p.pair, motion * T_a, T_b, taught_by_others_);
 }
 
 bool PairsAcross::may_agree(const Hypothesis& h, const Eigen::Isometry3d& motion, const Eigen::Isometry3d& back) const {
@@ -68,7 +68,7 @@ double PairsAcross::support(const Eigen::Isometry3d& motion, const std::vector<s
     const std::size_t pair = hypotheses_[k].pair;
     if (pair < next) continue;
     next = pair + 1;
-    const Agreement says = agreement_of(pairs_[pair], motion);
+    const SupportAcross says = support_of(pairs_[pair], motion);
     sum += says.support;
     against_twins += says.against_twins;
   }
@@ -124,7 +124,7 @@ std::vector<PairsAcross::CellPromise> PairsAcross::promises(const MotionCells& c
   std::vector<double> most(cells.size(), 0);
   for (std::size_t c = 0; c < cells.size(); ++c) {
     for (const std::size_t k : cells.motions(c)) {
-      most[c] += std::max(0.0, graph_.most_support(*hypotheses_[k].hypothesis));
+      most[c] += std::max(0.0, hypotheses_[k].hypothesis->most_support);
     }
   }
   std::vector<CellPromise> out;
@@ -174,7 +174,7 @@ double PairsAcross::most_elsewhere() const {
       most = 0;
       pair = h.pair;
     }
-    if (is_elsewhere(h)) most = std::max(most, graph_.most_support(*h.hypothesis));
+    if (is_elsewhere(h)) most = std::max(most, h.hypothesis->most_support);
   }
   return sum + most;
 }

@@ -60,7 +60,7 @@ class PairsAcross {
   std::vector<CellPromise> promises(const MotionCells& cells, double least) const;
   // Whether the middle of b's points lies where the hypothesis has it, nearly: tells most that disagree at little cost.
   bool may_agree(const Hypothesis& h, const Eigen::Isometry3d& motion, const Eigen::Isometry3d& back) const;
-  Agreement agreement_of(const Pair& p, const Eigen::Isometry3d& motion) const;
+  SupportAcross support_of(const Pair& p, const Eigen::Isometry3d& motion) const;
   // Of the pairs that these hypotheses, ascending, belong to.
   double support(const Eigen::Isometry3d& motion, const std::vector<std::size_t>& may_agree) const;
   double most_support(const std::vector<std::size_t>& may_agree) const;

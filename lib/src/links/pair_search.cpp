@@ -38,6 +38,9 @@ constexpr std::size_t kAlignedByReach = 4;
 constexpr std::size_t kMostPartners = 24;
 // Bounds the cost in large sets. Fewer would not do: what tells a place from its twin is that all pairs there are poor.
 constexpr std::size_t kImpliedPartners = 12;
+// Of one pair. Where poses are clear, a pair is asked at four at the most; where they are not, every round puts scans
+// elsewhere and asks again (docs/performance.md, hard sets).
+constexpr std::size_t kMostImplied = 12;
 constexpr std::size_t kSlidesOfPose = 8;  // from one pose
 constexpr double kSameSlide = 2;          // [coarse voxels]
 // Of a pair and method, beside those that free space vetoes; a clear hypothesis ends them.
@@ -375,7 +378,8 @@ struct PairSearch::Impl {
           return rms_displacement(T_a_b.inverse() * T, scans[b].moments) < distance_m;
         });
       };
-      if (has_within(before, set.fitted_m())) continue;
+      const bool enough = method == CoarseMethod::kImplied && before.size() >= kMostImplied;
+      if (enough || has_within(before, set.fitted_m())) continue;
       before.push_back(T_a_b);
       const auto fits = fitted.find({a, b});
       const bool there = fits != fitted.end() && has_within(fits->second, set.same_m());

@@ -47,8 +47,8 @@ void transfer(Record& record, T& value) {
 
 template <typename Record, MaybeConst<PoseHypothesis> T>
 void transfer(Record& record, T& value) {
-  auto& [T_a_b, log_odds, implied, overlap, taught, mean] = value;
-  record(T_a_b, log_odds, implied, overlap, taught, mean);
+  auto& [T_a_b, log_odds, implied, overlap, taught, mean, telling, most_support] = value;
+  record(T_a_b, log_odds, implied, overlap, taught, mean, telling.missed, telling.shows, most_support);
 }
 
 template <typename Record, MaybeConst<JudgedHypothesis> T>
