@@ -142,6 +142,28 @@ TEST(PairSearch, ImpliedPosesAreFittedOnceWhereTheyOverlap) {
   EXPECT_FALSE(search.try_implied({}, set));
 }
 
+// A set without clear poses puts its scans elsewhere round after round.
+TEST(PairSearch, APairIsAskedAtFewOfManyImpliedPoses) {
+  Rng rng = make_stream(8, "pair_search_test");
+  const PreparedScene s = testing::prepared_scene({.num_scans = 2, .points_per_scan = 4000, .noise_m = 0.01}, rng);
+  const Isometry3d T = s.scene.T_target_source(0, 1);
+  const Eigen::Vector3d& middle = s.scans[1].moments.mean;
+  constexpr int kTurns = 36;
+  const auto turned = [&](int k) -> Isometry3d {
+    const Eigen::AngleAxisd turn(2 * EIGEN_PI * k / kTurns, Eigen::Vector3d::UnitZ());
+    return T * Eigen::Translation3d(middle) * turn * Eigen::Translation3d(-middle);
+  };
+  PairSearch search(s.scans, kOptions, kContext);
+  HypothesisSet set = no_hypotheses(s);
+  int num_asked = 0;
+  for (int k = 1; k < kTurns; ++k) num_asked += search.try_implied({{0, 1, turned(k)}}, set) ? 1 : 0;
+  EXPECT_GT(num_asked, 4);
+  EXPECT_LT(num_asked, kTurns / 2);
+  search.try_guesses({Isometry3d::Identity(), turned(0)}, set);
+  EXPECT_LE(error_m(s, {0, 1}, set.pairs().at({0, 1}).front()), 0.25 * s.resolutions.coarse_m)
+      << "what a user says is asked in any case";
+}
+
 TEST(PairSearch, TriesThePairsOfWantedScansAlone) {
   Rng rng = make_stream(3, "pair_search_test");
   const PreparedScene s = testing::prepared_scene({.num_scans = 4, .points_per_scan = 2000}, rng);
