@@ -27,8 +27,6 @@ class CompatibilityGraph {
   const std::uint64_t* row(std::size_t i) const { return bits_.data() + i * words_; }
   bool joined(std::size_t i, std::size_t j) const { return (row(i)[j / 64] >> (j % 64) & 1U) != 0; }
 
-  std::size_t num_joined(std::size_t i) const;  ///< with it
-
   /// Matches joined with both: the second-order measure of SC2-PCR (Chen et al., 2022).
   int num_common(std::size_t i, std::size_t j) const;
 
@@ -43,7 +41,7 @@ class CompatibilityGraph {
   }
 
  private:
-  // excess[j], of every j above i: below 0 where it is joined with i.
+  // excess: of all matches and what fills their last word; below 0 at those after i that are joined with it.
   void join_those_after(std::size_t i, const float* excess);
 
   std::size_t size_ = 0, words_ = 0;

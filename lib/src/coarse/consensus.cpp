@@ -69,26 +69,31 @@ class Search {
  private:
   void count_triangles() {
     triangles_.assign(graph_.size(), 0);
-    edges_.resize(graph_.size());
-    for (std::size_t i = 0; i < graph_.size(); ++i) edges_[i].reserve(graph_.num_joined(i));
     for (std::size_t i = 0; i < graph_.size(); ++i) {
       graph_.for_each_neighbor(i, [&](std::size_t j) {
         if (j <= i) return;
         const int common = graph_.num_common(i, j);
-        if (common == 0) return;
-        edges_[i].push_back({static_cast<std::uint32_t>(j), common});
-        edges_[j].push_back({static_cast<std::uint32_t>(i), common});
         triangles_[i] += common;
         triangles_[j] += common;
       });
     }
   }
 
-  bool pose_of(std::uint32_t seed, ConsensusPose& pose) {
-    std::vector<Edge>& edges = edges_[seed];
+  // Those that close triangles, the most first. Counted again for the few that are asked, not kept for all.
+  std::vector<Edge> edges_of(std::uint32_t match) const {
+    std::vector<Edge> edges;
+    graph_.for_each_neighbor(match, [&](std::size_t other) {
+      const int common = graph_.num_common(match, other);
+      if (common > 0) edges.push_back({static_cast<std::uint32_t>(other), common});
+    });
     std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) {
       return a.common != b.common ? a.common > b.common : a.other < b.other;
     });
+    return edges;
+  }
+
+  bool pose_of(std::uint32_t seed, ConsensusPose& pose) {
+    const std::vector<Edge> edges = edges_of(seed);
     std::vector<std::uint32_t> members{seed};
     std::vector<float> weights{static_cast<float>(edges.empty() ? 1 : edges.front().common)};
     for (const Edge& e : edges) {
@@ -121,7 +126,6 @@ class Search {
   const MatchedPoints& matches_;
   const ConsensusOptions& options_;
   CompatibilityGraph graph_;
-  std::vector<std::vector<Edge>> edges_;
   std::vector<int> triangles_;
   std::vector<std::uint32_t> holding_;
 };

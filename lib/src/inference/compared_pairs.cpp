@@ -47,7 +47,7 @@ PairGraph::PairGraph(std::vector<ComparedPair> pairs, std::vector<PointMoments> 
     for (auto& h : pair.hypotheses) {
       h.mean = h.T_a_b * moments_[pair.b].mean;
       h.telling = telling(h.overlap);
-      h.most_support = (h.implied ? h.telling : Telling{}).says(odds_found(h, 0));
+      h.most_support = h.as_found().says(odds_found(h, 0));
     }
   }
   std::erase_if(pairs_, [](const auto& pair) { return pair.hypotheses.empty(); });
@@ -80,7 +80,7 @@ Agreement PairGraph::agreement(const ComparedPair& pair, const Eigen::Isometry3d
                                const Eigen::Isometry3d& T_b) const {
   Agreement best;
   for_agreeing(pair, T_a, T_b, [&](const PoseHypothesis& h, double beyond_m, double near) {
-    const Telling found = h.implied ? h.telling : Telling{};
+    const Telling found = h.as_found();
     const double odds = odds_found(h, near), says = found.says(odds);
     if (best.hypothesis != nullptr && says <= best.support) return;
     const double shown = found.shows * odds;
@@ -93,7 +93,7 @@ SupportAcross PairGraph::support_across(const ComparedPair& pair, const Eigen::I
                                         const Eigen::Isometry3d& T_b, double taught_by_others) const {
   std::optional<SupportAcross> most;
   for_agreeing(pair, T_a, T_b, [&](const PoseHypothesis& h, double, double near) {
-    const double says = (h.implied ? h.telling : Telling{}).says(odds_found(h, near));
+    const double says = h.as_found().says(odds_found(h, near));
     const double log_odds = std::min(h.log_odds - std::max(0.0, h.taught - taught_by_others), options_.most_log_odds);
     const double says_of_twins = h.telling.says(std::exp(log_odds + options_.log_poses - options_.log_implied - near));
     if (!most) most = {says, says_of_twins};

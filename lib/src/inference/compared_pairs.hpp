@@ -35,8 +35,10 @@ struct PoseHypothesis {
   double taught = 0;   ///< of the log-odds: the set's constant, as far as `teachers` have taught it
   // PairGraph's
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();  ///< of b's points, in a's frame
-  Telling telling = {};                            ///< of one that is implied: the less, the less overlaps
+  Telling telling = {};                            ///< were it implied: the less, the less overlaps
   double most_support = 0;                         ///< for poses that agree with it exactly
+
+  Telling as_found() const { return implied ? telling : Telling{}; }
 };
 
 struct ComparedPair {
@@ -152,6 +154,7 @@ class PairGraph {
   template <typename Visit>
   void for_agreeing(const ComparedPair& pair, const Eigen::Isometry3d& T_a, const Eigen::Isometry3d& T_b,
                     Visit visit) const;
+  // What it says for such poses, before what a search may have missed.
   double odds_found(const PoseHypothesis& h, double near) const;
   Telling telling(double overlap) const;
 

@@ -38,8 +38,8 @@ constexpr std::size_t kAlignedByReach = 4;
 constexpr std::size_t kMostPartners = 24;
 // Bounds the cost in large sets. Fewer would not do: what tells a place from its twin is that all pairs there are poor.
 constexpr std::size_t kImpliedPartners = 12;
-// Of one pair. Where poses are clear, a pair is asked at four at the most; where they are not, every round puts scans
-// elsewhere and asks again (docs/performance.md, hard sets).
+// Of one pair. Of sets with clear places they are up to three, of rooms that look alike up to eleven; where no place is
+// clear, every round puts scans elsewhere and asks again (docs/performance.md, hard sets).
 constexpr std::size_t kMostImplied = 12;
 constexpr std::size_t kSlidesOfPose = 8;  // from one pose
 constexpr double kSameSlide = 2;          // [coarse voxels]
