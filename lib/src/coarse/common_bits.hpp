@@ -6,8 +6,7 @@
 
 namespace tcm_icp {
 
-/// Number of bits that are set in both. Where the processor has an instruction that counts them, by that: a third of
-/// the time.
+/// Number of bits that are set in both; by the processor's instruction, where it has one that counts them.
 /// @param a, b  of the same length
 std::uint64_t num_common_bits(std::span<const std::uint64_t> a, std::span<const std::uint64_t> b);
 

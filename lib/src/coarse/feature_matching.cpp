@@ -28,7 +28,7 @@ std::vector<FeatureMatch> match_features(const Descriptors& target, const Descri
     const Eigen::Index count = std::min(kBlock, source.cols() - first);
     products.noalias() = target.transpose() * source.middleCols(first, count);
     for (Eigen::Index k = 0; k < count; ++k) {
-      // By vectors, and then its place: one walk that keeps both takes three times as long.
+      // Two walks: for the largest alone the compiler takes vectors.
       const float largest = products.col(k).maxCoeff();
       const float* column = products.col(k).data();
       const auto row = std::find(column, column + num_targets, largest) - column;
