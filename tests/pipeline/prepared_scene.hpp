@@ -20,7 +20,7 @@ inline SampledScan sampled(const Cloud& cloud, const std::string& file) {
   SampledScan out;
   out.scan.file = file;
   out.scan.cloud = cloud;
-  out.surface_normals = cloud.normals;
+  out.is_surface.assign(cloud.normals.size(), 1);
   return out;
 }
 

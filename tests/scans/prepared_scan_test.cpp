@@ -53,7 +53,7 @@ TEST(PrepareScan, SmallScansAreSharedInTheProportionAskedFor) {
 
 TEST(PrepareScan, FitsAndVerificationUseSurfacesOnly) {
   SampledScan scan = sampled(yard(3), "a.ply");
-  for (std::size_t i = 0; i < scan.surface_normals.size(); i += 2) scan.surface_normals[i].setZero();  // rough places
+  for (std::size_t i = 0; i < scan.is_surface.size(); i += 2) scan.is_surface[i] = 0;  // rough places
   const PreparedScan prepared = prepare_scan(scan, choose_resolutions({scan}, {}, 1), {}, 42);
   for (const Cloud* const cloud : {&prepared.fit_sample, &prepared.held_out_sample, &prepared.fine_sample}) {
     ASSERT_FALSE(cloud->empty());

@@ -62,7 +62,8 @@ struct HeightSearch {
 
   void find_footprints(const std::vector<const Cloud*>& clouds, const std::vector<std::size_t>& members);
   void choose_grid();
-  void make_maps(const std::vector<const Cloud*>& clouds, const std::vector<std::size_t>& members, bool for_candidates);
+  void make_maps(const std::vector<const Cloud*>& clouds, const std::vector<std::size_t>& members);
+  void make_fine_maps(const std::vector<const Cloud*>& clouds, const std::vector<std::size_t>& members);
   void drop_maps(const std::vector<std::size_t>& members);
   std::vector<PeakList> correlate(std::span<const ScanPair> pairs, const std::vector<std::size_t>& members,
                                   std::size_t num_peaks);
@@ -112,8 +113,7 @@ void HeightSearch::choose_grid() {
   grid_size = fast_size(static_cast<int>(kPadding * largest_m / cell_m));
 }
 
-void HeightSearch::make_maps(const std::vector<const Cloud*>& clouds, const std::vector<std::size_t>& members,
-                             bool for_candidates) {
+void HeightSearch::make_maps(const std::vector<const Cloud*>& clouds, const std::vector<std::size_t>& members) {
   const Fourier fourier(grid_size);
   parallel_for(num_threads, members.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t m = begin; m < end; ++m) {
@@ -121,13 +121,24 @@ void HeightSearch::make_maps(const std::vector<const Cloud*>& clouds, const std:
       for (const auto& footprint : scans[i].footprints) {
         scans[i].maps.push_back(make_height_map(*clouds[i], footprint, cell_m, options.map));
         const HeightMap& map = scans[i].maps.back();
-        if (for_candidates) {
-          scans[i].cells.push_back(list_cells(map, kCellsRefined));
-          scans[i].fine_maps.push_back(make_height_map(*clouds[i], footprint, cell_m / kFineScale, options.map));
-          scans[i].fine_cells.push_back(list_cells(scans[i].fine_maps.back(), kCellsFine));
-        }
         scans[i].upright.push_back(transform(upright_images(map, false, grid_size), fourier));
         scans[i].quarter_turned.push_back(transform(upright_images(map, true, grid_size), fourier));
+      }
+    }
+  });
+}
+
+// In place of the spectra: both would be most of what a set takes.
+void HeightSearch::make_fine_maps(const std::vector<const Cloud*>& clouds, const std::vector<std::size_t>& members) {
+  parallel_for(num_threads, members.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t m = begin; m < end; ++m) {
+      ScanMaps& scan = scans[members[m]];
+      for (auto* spectra : {&scan.upright, &scan.quarter_turned, &scan.turned})
+        std::vector<MapSpectra>().swap(*spectra);
+      for (const auto& map : scan.maps) scan.cells.push_back(list_cells(map, kCellsRefined));
+      for (const auto& footprint : scan.footprints) {
+        scan.fine_maps.push_back(make_height_map(*clouds[members[m]], footprint, cell_m / kFineScale, options.map));
+        scan.fine_cells.push_back(list_cells(scan.fine_maps.back(), kCellsFine));
       }
     }
   });
@@ -298,9 +309,11 @@ void search_in_blocks(const std::vector<const Cloud*>& scans, const std::vector<
   for (std::size_t begin = 0; begin < pairs.size();) {
     const std::size_t end = next_block(pairs, begin, members);
     search.find_footprints(scans, members);
-    search.make_maps(scans, members, for_candidates);
+    search.make_maps(scans, members);
     const auto block = std::span(pairs).subspan(begin, end - begin);
-    use(search, begin, search.correlate(block, members, for_candidates ? kPeaksRefined : kPeaksScreened));
+    const auto peaks = search.correlate(block, members, for_candidates ? kPeaksRefined : kPeaksScreened);
+    if (for_candidates) search.make_fine_maps(scans, members);
+    use(search, begin, peaks);
     search.drop_maps(members);
     begin = end;
   }

@@ -70,11 +70,11 @@ struct NearestK {
 };
 
 // The first one found ends the search: nothing lies within a negative limit.
-struct AnyWithin {
+struct OneWithin {
   double squared_radius_m2;
-  bool found = false;
-  double limit_m2() const { return found ? -1 : squared_radius_m2; }
-  void take(std::uint32_t, double) { found = true; }
+  Neighbor found;
+  double limit_m2() const { return found.found() ? -1 : squared_radius_m2; }
+  void take(std::uint32_t index, double squared_m2) { found = {index, squared_m2}; }
 };
 
 struct AllWithin {
@@ -141,7 +141,11 @@ Neighbor NeighborIndex::nearest_within(const Eigen::Vector3d& query, double radi
 }
 
 bool NeighborIndex::any_within(const Eigen::Vector3d& query, double radius_m) const {
-  AnyWithin visitor{radius_m * radius_m};
+  return one_within(query, radius_m).found();
+}
+
+Neighbor NeighborIndex::one_within(const Eigen::Vector3d& query, double radius_m) const {
+  OneWithin visitor{radius_m * radius_m, {}};
   impl_->search(query, visitor);
   return visitor.found;
 }
@@ -155,11 +159,24 @@ void NeighborIndex::nearest_k(const Eigen::Vector3d& query, std::size_t k, std::
   impl_->search(query, visitor);
 }
 
+void NeighborIndex::nearest_k_within(const Eigen::Vector3d& query, std::size_t k, double radius_m,
+                                     std::vector<Neighbor>& out) const {
+  out.clear();
+  if (!query.allFinite()) return;
+  out.assign(k, Neighbor{Neighbor{}.index, radius_m * radius_m});
+  NearestK visitor{out};
+  impl_->search(query, visitor);
+}
+
 void NeighborIndex::within(const Eigen::Vector3d& query, double radius_m, std::vector<Neighbor>& out) const {
+  within_unordered(query, radius_m, out);
+  std::sort(out.begin(), out.end(), nearer);
+}
+
+void NeighborIndex::within_unordered(const Eigen::Vector3d& query, double radius_m, std::vector<Neighbor>& out) const {
   out.clear();
   AllWithin visitor{radius_m * radius_m, out};
   impl_->search(query, visitor);
-  std::sort(out.begin(), out.end(), nearer);
 }
 
 }  // namespace tcm_icp

@@ -3,6 +3,8 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <map>
 #include <string>
 
 #include "core/tie.hpp"
@@ -47,11 +49,22 @@ Plane fit_plane(const Points& points, const std::vector<Neighbor>& neighbors) {
   return plane;
 }
 
+// A query whose neighbours are known: those of the next lie no farther from it than from here to there and back.
+struct Queried {
+  Eigen::Vector3d query;
+  double radius_m = std::numeric_limits<double>::infinity();
+};
+
 // The k nearest, and those as far as the last of them: which of equals is taken would turn the normal.
-void nearest_k_and_ties(const NeighborIndex& index, const Eigen::Vector3d& query, std::size_t k,
+void nearest_k_and_ties(const NeighborIndex& index, const Eigen::Vector3d& query, std::size_t k, Queried& before,
                         std::vector<Neighbor>& out) {
-  index.nearest_k(query, k + 1, out);
+  if (std::isfinite(before.radius_m)) {
+    index.nearest_k_within(query, k + 1, (before.radius_m + (query - before.query).norm()) * (1 + kTieShare), out);
+  } else {
+    index.nearest_k(query, k + 1, out);
+  }
   if (out.size() <= k) return;
+  before = {query, std::sqrt(out[k].squared_distance_m2)};
   const double last = out[k - 1].squared_distance_m2;
   if (clearly_less(last, out[k].squared_distance_m2)) {
     out.pop_back();
@@ -79,10 +92,11 @@ NormalEstimate estimate_normals_at(const Points& queries, const Points& points, 
                      std::vector<double>(queries.size(), 0.0)};
   parallel_for(num_threads, queries.size(), [&](std::size_t begin, std::size_t end) {
     std::vector<Neighbor> neighbors;
+    std::map<int, Queried> before;  // by k
     for (std::size_t i = begin; i < end; ++i) {
       Plane plane;
       for (int k = options.min_neighbors; plane.is_line; k = std::min(2 * k, options.max_neighbors)) {
-        nearest_k_and_ties(index, queries[i], static_cast<std::size_t>(k), neighbors);
+        nearest_k_and_ties(index, queries[i], static_cast<std::size_t>(k), before[k], neighbors);
         if (neighbors.size() < 3) break;
         plane = fit_plane(points, neighbors);
         if (k == options.max_neighbors) break;

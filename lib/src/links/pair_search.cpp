@@ -117,9 +117,10 @@ struct PairSearch::Impl {
   std::vector<Cloud> borders;                       // once slides ask for them
   std::unique_ptr<std::once_flag[]> found_borders;  // the same
   FeatureAlignmentOptions features;
-  std::vector<DescribedScan> described;                                                   // once they are asked for
-  std::optional<ScanWords> words;                                                         // the same
-  std::map<std::pair<std::size_t, std::size_t>, std::vector<PoseCandidate>> aligned;      // by features
+  std::vector<DescribedScan> described;  // once they are asked for
+  std::optional<ScanWords> words;        // the same
+  using Alignments = std::map<std::pair<std::size_t, std::size_t>, std::vector<PoseCandidate>>;
+  Alignments aligned, ranked;                                                             // by features
   std::map<std::pair<std::size_t, std::size_t>, std::vector<Eigen::Isometry3d>> fitted;   // target and source
   std::map<std::pair<std::size_t, std::size_t>, std::vector<Eigen::Isometry3d>> implied;  // that were tried
   std::map<std::pair<std::size_t, std::size_t>, std::vector<std::pair<Eigen::Isometry3d, double>>>
@@ -181,36 +182,40 @@ struct PairSearch::Impl {
     return is_large() && std::find(wanted.begin(), wanted.end(), false) != wanted.end();
   }
 
+  /// Those of the first level alone: who overlaps, they tell as well.
   std::vector<double> feature_scores(const ScanPairs& pairs) {
-    align(pairs);
+    FeatureAlignmentOptions first_level = features;
+    first_level.levels.resize(1);
+    align(pairs, first_level, ranked);
     std::vector<double> out;
     for (const auto& pair : pairs) {
-      const std::vector<PoseCandidate>& found = aligned.at(pair);
+      const std::vector<PoseCandidate>& found = ranked.at(pair);
       out.push_back(found.empty() ? 0 : found.front().score);
     }
     return out;
   }
 
   /// By features, what was not yet.
-  void align(const ScanPairs& pairs) {
+  void align(const ScanPairs& pairs, const FeatureAlignmentOptions& by, Alignments& known) {
     describe();
     ScanPairs open;
     for (const auto& pair : pairs) {
-      if (!aligned.contains(pair)) open.push_back(pair);
+      if (!known.contains(pair)) open.push_back(pair);
     }
     std::vector<std::vector<PoseCandidate>> found(open.size());
     parallel_for(context.num_threads, open.size(), [&](std::size_t begin, std::size_t end) {
       for (std::size_t k = begin; k < end; ++k) {
         const auto [a, b] = open[k];
-        found[k] = once([&, a = a, b = b] { return feature_key(scans[a], scans[b], options); },
-                        [&, a = a, b = b] { return aligned_by_features(a, b); });
+        found[k] = once([&, a = a, b = b] { return feature_key(scans[a], scans[b], options, by.levels.size()); },
+                        [&, a = a, b = b] { return aligned_by_features(a, b, by); });
       }
     });
-    for (std::size_t k = 0; k < open.size(); ++k) aligned.emplace(open[k], std::move(found[k]));
+    for (std::size_t k = 0; k < open.size(); ++k) known.emplace(open[k], std::move(found[k]));
   }
 
-  std::vector<PoseCandidate> aligned_by_features(std::size_t a, std::size_t b) const {
-    auto found = align_by_features({scans[a].pyramid, described[a]}, {scans[b].pyramid, described[b]}, features);
+  std::vector<PoseCandidate> aligned_by_features(std::size_t a, std::size_t b,
+                                                 const FeatureAlignmentOptions& by) const {
+    auto found = align_by_features({scans[a].pyramid, described[a]}, {scans[b].pyramid, described[b]}, by);
     if (options.level) std::erase_if(found, [](const PoseCandidate& c) { return tilts(c.T_target_source); });
     return found;
   }
@@ -267,7 +272,7 @@ struct PairSearch::Impl {
   }
 
   std::vector<std::vector<PoseCandidate>> by_features(const ScanPairs& pairs) {
-    align(pairs);
+    align(pairs, features, aligned);
     std::vector<std::vector<PoseCandidate>> out;
     for (const auto& pair : pairs) out.push_back(aligned.at(pair));
     return out;

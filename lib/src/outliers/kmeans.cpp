@@ -11,12 +11,6 @@
 namespace tcm_icp {
 namespace {
 
-// Summed as the neighbour index sums, so that both find the same bits.
-double squared_distance(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-  const double x = a.x() - b.x(), y = a.y() - b.y(), z = a.z() - b.z();
-  return x * x + y * y + z * z;
-}
-
 // For each centroid the squared distance [m^2] below which it is the nearest for sure: half-way to the next one, less
 // what rounding may add.
 std::vector<double> own_spheres(const Points& centroids, const NeighborIndex& index) {
@@ -40,7 +34,7 @@ void assign(const Points& points, bool again, KMeansResult& result, int num_thre
       if (!points[i].allFinite()) throw InvalidInput("k-means was given a point that is not finite");
       if (again) {
         const std::uint32_t c = result.cluster[i];
-        const double squared_m2 = squared_distance(points[i], result.centroids[c]);
+        const double squared_m2 = squared_distance_m2(points[i], result.centroids[c]);
         if (squared_m2 < own[c]) {
           result.squared_distance_m2[i] = squared_m2;
           continue;

@@ -42,7 +42,7 @@ KMeansSeeds seed_kmeans(const Points& points, const NeighborIndex& index, double
     if (is_taken[seed]) continue;
     if (seeds.centroids.size() == max_centroids) break;
     seeds.centroids.push_back(points[seed]);
-    index.within(points[seed], radius_m, sphere);
+    index.within_unordered(points[seed], radius_m, sphere);
     for (const auto& n : sphere) take(n.index);
     take(seed);
   }

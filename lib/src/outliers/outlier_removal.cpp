@@ -101,9 +101,21 @@ OutlierRuleState OutlierRule::state() const {
 }
 
 bool OutlierRule::is_outlier(const Eigen::Vector3d& p) const {
+  std::uint32_t near = 0;
+  return is_outlier(p, near);
+}
+
+bool OutlierRule::is_outlier(const Eigen::Vector3d& p, std::uint32_t& near) const {
   if (!p.allFinite()) return true;
   if (!impl_) return false;
-  if (impl_->centroids) return !impl_->centroids->any_within(p, impl_->threshold_m);
+  if (impl_->centroids) {
+    const Points& centroids = impl_->centroid_points;
+    const double threshold_m = impl_->threshold_m;
+    if (near < centroids.size() && squared_distance_m2(p, centroids[near]) <= threshold_m * threshold_m) return false;
+    const Neighbor found = impl_->centroids->one_within(p, threshold_m);
+    if (found.found()) near = found.index;
+    return !found.found();
+  }
   return !impl_->outlier_voxels.empty() && impl_->outlier_voxels.contains(voxel_key(p, impl_->voxel_size_m));
 }
 
@@ -181,8 +193,8 @@ OutlierRule learn_outlier_rule(const Points& working_cloud, double voxel_size_m,
         thinned.points, neighborhood_outliers(thinned.points, options, num_threads, summary), thinned.voxel_size_m);
   }
   const OutlierRule rule(impl, summary);
-  summary.num_outliers = static_cast<std::size_t>(
-      std::count_if(working_cloud.begin(), working_cloud.end(), [&](const auto& p) { return rule.is_outlier(p); }));
+  std::uint32_t near = 0;
+  for (const auto& p : working_cloud) summary.num_outliers += rule.is_outlier(p, near) ? 1 : 0;
   return OutlierRule(impl, summary);
 }
 

@@ -44,8 +44,9 @@ void stream_kept(std::span<const ScanInput> inputs, std::size_t i, const Pipelin
     context.report("writing", i, inputs.size());
     keep.resize(block.size());
     parallel_for(context.num_threads, block.size(), [&](std::size_t begin, std::size_t end) {
+      std::uint32_t near = 0;
       for (std::size_t k = begin; k < end; ++k) {
-        keep[k] = scan.outliers.is_outlier(block.points[k] - scan.origin) ? 0 : 1;
+        keep[k] = scan.outliers.is_outlier(block.points[k] - scan.origin, near) ? 0 : 1;
       }
     });
     select(block, reader.attribute_stride(), keep, kept);

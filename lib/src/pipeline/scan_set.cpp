@@ -166,7 +166,7 @@ std::vector<PreparedScan> prepare_scans(std::vector<SampledScan>& scans, const R
     for (std::size_t i = begin; i < end; ++i) {
       prepared[i] = in_budget(prepare_scan(scans[i], resolutions, options, context.seed));
       scans[i].scan.cloud = Cloud();
-      scans[i].surface_normals = Points();
+      scans[i].is_surface = {};
       if (scans[i].digest.empty()) continue;
       prepared[i]->digest = prepared_digest(scans[i].digest, resolutions, options, context.seed);
     }

@@ -44,6 +44,15 @@ void draw_fit_and_held_out(const PyramidLevel& level, const SampleSizes& options
   held_out = pick(cloud, chosen);
 }
 
+// Rough places without a normal.
+Cloud surfaces_of(const SampledScan& scan) {
+  Cloud out = scan.scan.cloud;
+  for (std::size_t i = 0; i < scan.is_surface.size(); ++i) {
+    if (scan.is_surface[i] == 0) out.normals[i].setZero();
+  }
+  return out;
+}
+
 }  // namespace
 
 Ball::Ball(const Points& points) {
@@ -82,7 +91,7 @@ Resolutions choose_resolutions(const std::vector<SampledScan>& scans, const Samp
 
 PreparedScan prepare_scan(const SampledScan& scan, const Resolutions& resolutions, const SampleSizes& options,
                           std::uint64_t seed) {
-  const Cloud surfaces{scan.scan.cloud.points, scan.surface_normals};
+  const Cloud surfaces = surfaces_of(scan);
   Cloud fine = voxel_downsample(surfaces, resolutions.fine_m);
   NeighborIndex fine_index(fine.points);
   PreparedScan out{ScanPyramid(surfaces, resolutions.coarse_m, kNumPyramidLevels),

@@ -147,8 +147,9 @@ SampledScan sample_scan(const ScanInput& input, const SamplingOptions& sampling,
 
   Rng rng = make_stream(seed, "outliers", stream_key(scan));
   out.outliers = learn_outlier_rule(sample, scan.voxel_size_m, outliers, rng, num_threads);
+  std::uint32_t near = 0;
   for (const auto& p : sample) {
-    if (!out.outliers.is_outlier(p)) scan.cloud.points.push_back(p);
+    if (!out.outliers.is_outlier(p, near)) scan.cloud.points.push_back(p);
   }
   if (scan.cloud.size() < kMinPoints) {
     throw InvalidInput(input.path.string() + ": outlier removal left " + std::to_string(scan.cloud.size()) +
@@ -167,9 +168,8 @@ SampledScan sample_scan(const ScanInput& input, const SamplingOptions& sampling,
     if (!estimate.normals[i].isZero()) roughness.push_back(estimate.roughness_m[i]);
   }
   scan.noise_m = roughness.empty() ? 0 : median(roughness);
-  out.surface_normals = estimate.normals;
   for (std::size_t i = 0; i < estimate.normals.size(); ++i) {
-    if (estimate.variation[i] > sampling.max_surface_variation) out.surface_normals[i].setZero();
+    out.is_surface.push_back(estimate.variation[i] > sampling.max_surface_variation ? 0 : 1);
   }
   scan.cloud.normals = std::move(estimate.normals);
   return out;

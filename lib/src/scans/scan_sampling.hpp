@@ -1,6 +1,9 @@
 #pragma once
 // The first pass over a scan: counts, local origin, working cloud without outliers.
 
+#include <cstdint>
+#include <vector>
+
 #include "tcm_icp/core/run_context.hpp"
 #include "tcm_icp/core/scan.hpp"
 #include "tcm_icp/io/scan_source.hpp"
@@ -11,9 +14,9 @@
 namespace tcm_icp {
 
 struct SampledScan {
-  Scan scan;               ///< working cloud with outliers removed, with a normal at every point that has one
-  Points surface_normals;  ///< the same normals, zero where the place is too rough to be a surface
-  LinePieces line_pieces;  ///< of the working cloud, if wanted; none where it was thinned
+  Scan scan;  ///< working cloud with outliers removed, with a normal at every point that has one
+  std::vector<std::uint8_t> is_surface;  ///< of each point; not where the place is too rough
+  LinePieces line_pieces;                ///< of the working cloud, if wanted; none where it was thinned
   OutlierRule outliers;
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();  ///< [m] median point of the working cloud
   std::string digest{};                              ///< of all this depends on; empty without a work folder

@@ -52,37 +52,16 @@ void transfer(Record& record, T& value) {
   record(place, hidden_share, radius_m, extent_m, alternatives, evidence, line_share, allowed);
 }
 
-namespace {
-
-/// Which of the cloud's normals are among the surface normals; the others are zero there.
-std::vector<std::uint8_t> are_surfaces(const SampledScan& scan) {
-  std::vector<std::uint8_t> out;
-  for (const auto& normal : scan.surface_normals) out.push_back(normal.isZero(0) ? 0 : 1);
-  return out;
-}
-
-Points surface_normals(const Points& normals, const std::vector<std::uint8_t>& is_surface) {
-  if (!is_surface.empty() && is_surface.size() != normals.size()) throw BrokenRecord();
-  Points out;
-  for (std::size_t i = 0; i < is_surface.size(); ++i) {
-    out.emplace_back(is_surface[i] != 0 ? normals[i] : Eigen::Vector3d::Zero());
-  }
-  return out;
-}
-
-}  // namespace
-
 template <typename Record>
 void transfer(Record& record, const SampledScan& scan) {
-  record(scan.scan, are_surfaces(scan), scan.line_pieces, scan.outliers.state(), scan.middle);
+  record(scan.scan, scan.is_surface, scan.line_pieces, scan.outliers.state(), scan.middle);
 }
 
 template <typename Record>
 void transfer(Record& record, SampledScan& scan) {
-  std::vector<std::uint8_t> is_surface;
   OutlierRuleState outliers;
-  record(scan.scan, is_surface, scan.line_pieces, outliers, scan.middle);
-  scan.surface_normals = surface_normals(scan.scan.cloud.normals, is_surface);
+  record(scan.scan, scan.is_surface, scan.line_pieces, outliers, scan.middle);
+  if (scan.is_surface.size() != scan.scan.cloud.normals.size()) throw BrokenRecord();
   scan.outliers = OutlierRule(outliers);
 }
 

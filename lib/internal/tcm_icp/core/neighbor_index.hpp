@@ -18,6 +18,12 @@ struct Neighbor {
   bool found() const { return squared_distance_m2 < std::numeric_limits<double>::infinity(); }
 };
 
+/// [m^2], summed as the index sums it, so that both find the same bits.
+inline double squared_distance_m2(const Eigen::Vector3d& query, const Eigen::Vector3d& point) {
+  const double x = query.x() - point.x(), y = query.y() - point.y(), z = query.z() - point.z();
+  return x * x + y * y + z * z;
+}
+
 /// A kd-tree over a copy of `points`. Built in the constructor, so every query is const and thread-safe. Answers are
 /// exact and depend on the points alone: of equally near points the one with the lowest index counts as nearer. A query
 /// that is not finite finds nothing.
@@ -43,11 +49,20 @@ class NeighborIndex {
   /// Whether a point lies within `radius_m`: ends at the first one.
   bool any_within(const Eigen::Vector3d& query, double radius_m) const;
 
+  /// A point within `radius_m`, whichever comes first; not found() where there is none.
+  Neighbor one_within(const Eigen::Vector3d& query, double radius_m) const;
+
   /// Up to k nearest points, by distance and then index.
   void nearest_k(const Eigen::Vector3d& query, std::size_t k, std::vector<Neighbor>& out) const;
 
+  /// The same of an index that holds k points within `radius_m`: the less that is, the less is searched.
+  void nearest_k_within(const Eigen::Vector3d& query, std::size_t k, double radius_m, std::vector<Neighbor>& out) const;
+
   /// All points within `radius_m`, by distance and then index.
   void within(const Eigen::Vector3d& query, double radius_m, std::vector<Neighbor>& out) const;
+
+  /// The same in no order.
+  void within_unordered(const Eigen::Vector3d& query, double radius_m, std::vector<Neighbor>& out) const;
 
  private:
   struct Impl;

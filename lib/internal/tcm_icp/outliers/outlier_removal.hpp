@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -59,6 +60,9 @@ class OutlierRule {
 
   /// kKMeans: O(log k); otherwise one look-up. A point that is not finite is an outlier.
   bool is_outlier(const Eigen::Vector3d& p) const;
+  /// The same for point after point along surfaces, most of which are spared the search.
+  /// @param near  what the call before left there; 0 at first
+  bool is_outlier(const Eigen::Vector3d& p, std::uint32_t& near) const;
   const OutlierSummary& summary() const { return summary_; }
   OutlierRuleState state() const;
 
