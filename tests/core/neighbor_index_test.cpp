@@ -44,6 +44,38 @@ TEST(NeighborIndex, AgreesWithLoopsOnDistances) {
   }
 }
 
+TEST(NeighborIndex, SearchesThatKnowMoreFindTheSame) {
+  Rng rng = make_stream(3, "neighbor_index_test");
+  Points points = testing::random_points(2000, 10, rng);
+  points.insert(points.end(), points.begin(), points.begin() + 500);  // equal distances, too
+  const NeighborIndex index(points);
+  const auto indices = [](const std::vector<Neighbor>& neighbors) {
+    std::vector<std::uint32_t> out;
+    for (const auto& n : neighbors) out.push_back(n.index);
+    return out;
+  };
+  std::vector<Neighbor> plain, other;
+  for (const auto& q : testing::random_points(200, 14, rng)) {
+    index.nearest_k(q, 13, plain);
+    for (const double factor : {1.0 + 1e-9, 1.5, 100.0}) {
+      index.nearest_k_within(q, 13, factor * std::sqrt(plain.back().squared_distance_m2), other);
+      EXPECT_EQ(indices(other), indices(plain)) << factor;
+    }
+    const double radius = 1.5;
+    index.within(q, radius, plain);
+    index.within_unordered(q, radius, other);
+    auto in_order = indices(plain), unordered = indices(other);
+    std::sort(in_order.begin(), in_order.end());
+    std::sort(unordered.begin(), unordered.end());
+    EXPECT_EQ(unordered, in_order);
+    const Neighbor one = index.one_within(q, radius);
+    ASSERT_EQ(one.found(), !plain.empty());
+    if (!one.found()) continue;
+    EXPECT_EQ(one.squared_distance_m2, squared_distance_m2(q, points[one.index]));
+    EXPECT_LE(one.squared_distance_m2, radius * radius);
+  }
+}
+
 TEST(NeighborIndex, EqualDistancesComeInTheOrderOfTheirIndices) {
   const NeighborIndex index(Points{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, 0, 0}});
   std::vector<Neighbor> found;

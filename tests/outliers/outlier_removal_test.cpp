@@ -143,6 +143,24 @@ TEST_P(Outliers, TheNumberOfThreadsDoesNotMatter) {
   for (const auto& p : scan) ASSERT_EQ(rule.is_outlier(p), same.is_outlier(p));
 }
 
+// In any order: what the point before was near may be far from this one.
+TEST_P(Outliers, AskedOneAfterAnotherPointsAreTheSame) {
+  Points raw = spinning_scan();
+  for (const auto& p : testing::random_points(100, 60, rng)) raw.push_back(p);
+  const Working w = sample(raw);
+  OutlierOptions options;
+  options.method = GetParam();
+  const OutlierRule rule = learn_outlier_rule(w.points, w.voxel_size_m, options, rng, 1);
+  std::uint32_t near = 0;
+  std::size_t num_outliers = 0;
+  for (const auto& p : w.points) {
+    ASSERT_EQ(rule.is_outlier(p, near), rule.is_outlier(p)) << p.transpose();
+    num_outliers += rule.is_outlier(p) ? 1 : 0;
+  }
+  EXPECT_EQ(rule.summary().num_outliers, num_outliers);
+  for (const auto& p : testing::random_points(2000, 80, rng)) ASSERT_EQ(rule.is_outlier(p, near), rule.is_outlier(p));
+}
+
 TEST_P(Outliers, TooFewOrEqualPointsHaveNone) {
   for (const Points& scan :
        {Points(1, Eigen::Vector3d(1, 2, 3)), Points{{0, 0, 0}, {100, 0, 0}}, Points(50, Eigen::Vector3d(1, 2, 3))}) {
