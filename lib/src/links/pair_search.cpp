@@ -182,11 +182,11 @@ struct PairSearch::Impl {
     return is_large() && std::find(wanted.begin(), wanted.end(), false) != wanted.end();
   }
 
-  /// Those of the first level alone: who overlaps, they tell as well.
+  /// Those of the first level alone, which tell who overlaps, too.
   std::vector<double> feature_scores(const ScanPairs& pairs) {
     FeatureAlignmentOptions first_level = features;
     first_level.levels.resize(1);
-    align(pairs, first_level, ranked);
+    align(pairs, first_level, ranking_key, ranked);
     std::vector<double> out;
     for (const auto& pair : pairs) {
       const std::vector<PoseCandidate>& found = ranked.at(pair);
@@ -196,7 +196,8 @@ struct PairSearch::Impl {
   }
 
   /// By features, what was not yet.
-  void align(const ScanPairs& pairs, const FeatureAlignmentOptions& by, Alignments& known) {
+  template <typename MakeKey>
+  void align(const ScanPairs& pairs, const FeatureAlignmentOptions& by, const MakeKey& key, Alignments& known) {
     describe();
     ScanPairs open;
     for (const auto& pair : pairs) {
@@ -206,7 +207,7 @@ struct PairSearch::Impl {
     parallel_for(context.num_threads, open.size(), [&](std::size_t begin, std::size_t end) {
       for (std::size_t k = begin; k < end; ++k) {
         const auto [a, b] = open[k];
-        found[k] = once([&, a = a, b = b] { return feature_key(scans[a], scans[b], options, by.levels.size()); },
+        found[k] = once([&, a = a, b = b] { return key(scans[a], scans[b], options); },
                         [&, a = a, b = b] { return aligned_by_features(a, b, by); });
       }
     });
@@ -272,7 +273,7 @@ struct PairSearch::Impl {
   }
 
   std::vector<std::vector<PoseCandidate>> by_features(const ScanPairs& pairs) {
-    align(pairs, features, aligned);
+    align(pairs, features, feature_key, aligned);
     std::vector<std::vector<PoseCandidate>> out;
     for (const auto& pair : pairs) out.push_back(aligned.at(pair));
     return out;

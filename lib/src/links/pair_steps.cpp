@@ -96,9 +96,12 @@ StepKey height_map_key(const PreparedScan& target, const PreparedScan& source,
   return step_key("height-maps", target.digest, source.digest, screening, full);
 }
 
-StepKey feature_key(const PreparedScan& target, const PreparedScan& source, const LinkSearchOptions& options,
-                    std::size_t num_levels) {
-  return step_key("features", target.digest, source.digest, options.level, num_levels);
+StepKey ranking_key(const PreparedScan& target, const PreparedScan& source, const LinkSearchOptions& options) {
+  return step_key("rankings", target.digest, source.digest, options.level);
+}
+
+StepKey feature_key(const PreparedScan& target, const PreparedScan& source, const LinkSearchOptions& options) {
+  return step_key("features", target.digest, source.digest, options.level);
 }
 
 StepKey slide_key(const PreparedScan& target, const PreparedScan& source, const std::vector<Eigen::Isometry3d>& from) {

@@ -18,9 +18,9 @@ namespace tcm_icp {
 /// The key of a pair's search by height maps.
 StepKey height_map_key(const PreparedScan& target, const PreparedScan& source,
                        const HeightCorrelationOptions& screening, const HeightCorrelationOptions& full);
-/// @param num_levels  of the features, that the pair is aligned by
-StepKey feature_key(const PreparedScan& target, const PreparedScan& source, const LinkSearchOptions& options,
-                    std::size_t num_levels);
+/// Of the alignment that ranks a scan's partners.
+StepKey ranking_key(const PreparedScan& target, const PreparedScan& source, const LinkSearchOptions& options);
+StepKey feature_key(const PreparedScan& target, const PreparedScan& source, const LinkSearchOptions& options);
 StepKey slide_key(const PreparedScan& target, const PreparedScan& source, const std::vector<Eigen::Isometry3d>& from);
 /// Check sum over the options.
 std::string search_digest(const LinkSearchOptions& options);
