@@ -95,6 +95,8 @@ Tried next(Tried before) { return static_cast<Tried>(static_cast<char>(before) +
 }  // namespace
 
 struct PairSearch::Impl {
+  using Alignments = std::map<std::pair<std::size_t, std::size_t>, std::vector<PoseCandidate>>;
+
   Impl(const std::vector<PreparedScan>& all, const LinkSearchOptions& o, const RunContext& c, KeptSearches k)
       : scans(all),
         options(o),
@@ -117,9 +119,8 @@ struct PairSearch::Impl {
   std::vector<Cloud> borders;                       // once slides ask for them
   std::unique_ptr<std::once_flag[]> found_borders;  // the same
   FeatureAlignmentOptions features;
-  std::vector<DescribedScan> described;  // once they are asked for
-  std::optional<ScanWords> words;        // the same
-  using Alignments = std::map<std::pair<std::size_t, std::size_t>, std::vector<PoseCandidate>>;
+  std::vector<DescribedScan> described;                                                   // once they are asked for
+  std::optional<ScanWords> words;                                                         // the same
   Alignments aligned, ranked;                                                             // by features
   std::map<std::pair<std::size_t, std::size_t>, std::vector<Eigen::Isometry3d>> fitted;   // target and source
   std::map<std::pair<std::size_t, std::size_t>, std::vector<Eigen::Isometry3d>> implied;  // that were tried
