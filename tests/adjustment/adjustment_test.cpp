@@ -66,9 +66,7 @@ TEST(OverlappingPairs, AreThoseThatShareEnoughAndArePlaced) {
   for (const auto& [a, b] : all_pairs(4)) {
     if (std::find(any.begin(), any.end(), std::pair(a, b)) != any.end()) continue;
     const PyramidLevel &x = s.scans[a].pyramid.level(1), &y = s.scans[b].pyramid.level(1);
-    EXPECT_EQ(
-        overlap({x.cloud.points, x.index}, {y.cloud.points, y.index}, s.scene.T_target_source(a, b), x.voxel_size_m),
-        0);
+    EXPECT_EQ(overlap(x, y, s.scene.T_target_source(a, b), x.voxel_size_m), 0);
   }
   EXPECT_GE(any.size(), some.size());
   EXPECT_TRUE(std::find(some.begin(), some.end(), std::pair<std::size_t, std::size_t>(0, 1)) != some.end());

@@ -106,8 +106,7 @@ TEST_F(TcmOrderTest, ByOverlapTheLargestIsNext) {
   std::vector<double> shares;
   for (const auto& c : choices_) {
     const PyramidLevel& scan = s_.scans[c.scan].pyramid.level(1);
-    shares.push_back(
-        overlap({s.cloud.points, s.index}, {scan.cloud.points, scan.index}, c.T_reference_scan, 2 * s.voxel_size_m));
+    shares.push_back(overlap(s, scan, c.T_reference_scan, 2 * s.voxel_size_m));
   }
   ASSERT_LT(*std::min_element(shares.begin(), shares.end()), *std::max_element(shares.begin(), shares.end()));
   next(MergeOrder::kOverlap);

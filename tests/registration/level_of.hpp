@@ -5,8 +5,6 @@
 
 namespace tcm_icp::testing {
 
-inline PyramidLevel level_of(const Cloud& cloud, double voxel_size_m = 0.1) {
-  return {voxel_size_m, cloud, NeighborIndex(cloud.points)};
-}
+inline PyramidLevel level_of(const Cloud& cloud, double voxel_size_m = 0.1) { return {voxel_size_m, cloud}; }
 
 }  // namespace tcm_icp::testing

@@ -29,7 +29,7 @@ testing::BoxRoom corridor_room(bool with_door) {
 struct SeenFromTheCorridor {
   explicit SeenFromTheCorridor(const testing::BoxRoom& room, const Isometry3d& T = Isometry3d::Identity(),
                                bool knows_where = true)
-      : cloud(transformed(testing::scan_room(room, kFrom, 60'000), T)), level{0.1, cloud, NeighborIndex(cloud.points)} {
+      : cloud(transformed(testing::scan_room(room, kFrom, 60'000), T)), level{0.1, cloud} {
     if (knows_where) sight = make_sight(Viewpoint{T * kFrom, 0, 0, 5, {}}, cloud.points, cloud);
   }
   Cloud borders() const { return find_borders({level, sight}); }

@@ -21,7 +21,7 @@ struct Seen {
   Seen(const testing::BoxRoom& room, const Vector3d& from, const Isometry3d& T = Isometry3d::Identity(),
        double unit = 1)
       : cloud(transformed(testing::scaled_cloud(testing::scan_room(room, from, 40'000), unit), T)),
-        level{kVoxel_m * unit, cloud, NeighborIndex(cloud.points)},
+        level{kVoxel_m * unit, cloud},
         sight(make_sight(Viewpoint{T * (unit * from), 0, 0, 5 * unit, {}}, cloud.points, cloud)) {}
   operator SightedScan() const { return {level, sight}; }  // NOLINT: a view
 

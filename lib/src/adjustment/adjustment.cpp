@@ -202,8 +202,7 @@ ScanPairs overlapping_pairs(const std::vector<PreparedScan>& scans,
       const auto [a, b] = candidates[i];
       const PyramidLevel& level_a = scans[a].pyramid.level(1);
       const PyramidLevel& level_b = scans[b].pyramid.level(1);
-      shares[i] = overlap({level_a.cloud.points, level_a.index}, {level_b.cloud.points, level_b.index},
-                          T_reference_scan[a].inverse() * T_reference_scan[b], level_a.voxel_size_m);
+      shares[i] = overlap(level_a, level_b, T_reference_scan[a].inverse() * T_reference_scan[b], level_a.voxel_size_m);
     }
   });
   std::vector<std::size_t> order(candidates.size());

@@ -350,7 +350,7 @@ struct PairSearch::Impl {
           continue;
         }
         const PyramidLevel &x = scans[a].pyramid.level(kOverlapLevel), &y = scans[b].pyramid.level(kOverlapLevel);
-        out[k] = overlap({x.cloud.points, x.index}, {y.cloud.points, y.index}, T_a_b, overlap_distance_m(a));
+        out[k] = overlap(x, y, T_a_b, overlap_distance_m(a));
         is_new[k] = 1;
       }
     });

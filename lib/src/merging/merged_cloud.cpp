@@ -20,7 +20,7 @@ ScanPyramid MergedCloud::pyramid() {
 
 PyramidLevel MergedCloud::level() {
   cloud_ = voxel_downsample(cloud_, voxel_size_m_);
-  return {voxel_size_m_, cloud_, NeighborIndex(cloud_.points)};
+  return {voxel_size_m_, cloud_};
 }
 
 }  // namespace tcm_icp

@@ -40,8 +40,7 @@ std::vector<std::size_t> MergedScans::add(std::size_t scan, const Eigen::Isometr
     if (merged_[other] || !component_.has(other)) continue;
     if (graph_.support(pair, *T[pair.a], *T[pair.b]) <= 0) continue;
     const PyramidLevel &a = scans_[scan].pyramid.level(2), &b = scans_[other].pyramid.level(2);
-    const double share = overlap({a.cloud.points, a.index}, {b.cloud.points, b.index}, T[scan]->inverse() * *T[other],
-                                 2 * a.voxel_size_m);
+    const double share = overlap(a, b, T[scan]->inverse() * *T[other], 2 * a.voxel_size_m);
     std::vector<Neighbor>& neighbors = neighbors_[other];
     neighbors.push_back({share, scan});
     std::stable_sort(neighbors.begin(), neighbors.end(),

@@ -40,8 +40,7 @@ std::vector<MergeMeasure> TcmOrder::measure(const PyramidLevel& s, const std::ve
   if (options_.order == MergeOrder::kOverlap) {
     for_each_choice([&](const MergeChoice& choice, MergeMeasure& m) {
       const PyramidLevel& scan = scans_[choice.scan].pyramid.level(level());
-      m.overlap = overlap({s.cloud.points, s.index}, {scan.cloud.points, scan.index}, choice.T_reference_scan,
-                          2 * s.voxel_size_m);
+      m.overlap = overlap(s, scan, choice.T_reference_scan, 2 * s.voxel_size_m);
     });
   }
   return out;

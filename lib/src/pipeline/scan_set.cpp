@@ -26,9 +26,9 @@ double correspondence(const PreparedScan& scan_a, const PreparedScan& scan_b, co
   if (profile == Profile::kPaper) {
     const Points moved = transformed({b.cloud.points, {}}, T_a_b).points;
     const NeighborIndex index(moved);
-    return correspondence_distance({a.cloud.points, a.index}, {moved, index});
+    return correspondence_distance({a.cloud.points, NeighborIndex(a.cloud.points)}, {moved, index});
   }
-  return 1 - overlap({a.cloud.points, a.index}, {b.cloud.points, b.index}, T_a_b, 2 * a.voxel_size_m);
+  return 1 - overlap(a, b, T_a_b, 2 * a.voxel_size_m);
 }
 
 [[noreturn]] void refuse_twice(const std::filesystem::path& name) {

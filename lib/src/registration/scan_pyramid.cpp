@@ -12,16 +12,18 @@ namespace {
 
 constexpr int kSearchedHalvings = 4;  // beyond the first size that may be enough: scans are surfaces, not solids
 constexpr int kMaxHalvings = 40;      // 1e-12 of the diagonal
+constexpr double kCellVoxels = 6;     // of the index: no distance that is asked of a level is longer
 
 }  // namespace
+
+PyramidLevel::PyramidLevel(double voxel_m, Cloud of)
+    : voxel_size_m(voxel_m), cloud(std::move(of)), index(cloud.points, kCellVoxels * voxel_m) {}
 
 ScanPyramid::ScanPyramid(const Cloud& cloud, double finest_voxel_m, std::size_t num_levels) {
   double voxel = finest_voxel_m;
   levels_.reserve(num_levels);
   for (std::size_t i = 0; i < num_levels; ++i, voxel *= 2) {
-    Cloud sampled = voxel_downsample(i == 0 ? cloud : levels_.back().cloud, voxel);
-    NeighborIndex index(sampled.points);
-    levels_.push_back({voxel, std::move(sampled), std::move(index)});
+    levels_.emplace_back(voxel, voxel_downsample(i == 0 ? cloud : levels_.back().cloud, voxel));
   }
 }
 

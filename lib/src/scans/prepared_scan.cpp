@@ -92,10 +92,8 @@ Resolutions choose_resolutions(const std::vector<SampledScan>& scans, const Samp
 PreparedScan prepare_scan(const SampledScan& scan, const Resolutions& resolutions, const SampleSizes& options,
                           std::uint64_t seed) {
   const Cloud surfaces = surfaces_of(scan);
-  Cloud fine = voxel_downsample(surfaces, resolutions.fine_m);
-  NeighborIndex fine_index(fine.points);
   PreparedScan out{ScanPyramid(surfaces, resolutions.coarse_m, kNumPyramidLevels),
-                   {resolutions.fine_m, std::move(fine), std::move(fine_index)},
+                   {resolutions.fine_m, voxel_downsample(surfaces, resolutions.fine_m)},
                    {},
                    {},
                    {},

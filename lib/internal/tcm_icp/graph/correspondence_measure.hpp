@@ -6,6 +6,7 @@
 
 #include "tcm_icp/core/cloud.hpp"
 #include "tcm_icp/core/neighbor_index.hpp"
+#include "tcm_icp/registration/scan_pyramid.hpp"
 
 namespace tcm_icp {
 
@@ -20,12 +21,13 @@ struct IndexedPoints {
 /// Symmetric. @throws InvalidInput  if a cloud is empty
 double correspondence_distance(const IndexedPoints& a, const IndexedPoints& b);
 
-/// Share 0..1 of a's points with a neighbour in b within `radius_m`, with b moved by T_a_b.
+/// Share 0..1 of a's points, or of an even sample as above, with a neighbour in b within `radius_m`, with b moved by
+/// T_a_b.
 /// @throws InvalidInput  if a cloud is empty or the radius is not positive
-double overlap_share(const IndexedPoints& a, const IndexedPoints& b, const Eigen::Isometry3d& T_a_b, double radius_m);
+double overlap_share(const PyramidLevel& a, const PyramidLevel& b, const Eigen::Isometry3d& T_a_b, double radius_m);
 
 /// Overlap of a pair 0..1: the larger of the two directions, so that a small scan wholly inside a large one overlaps
 /// fully, whatever the large one covers besides. The robust correspondence is 1 - overlap.
-double overlap(const IndexedPoints& a, const IndexedPoints& b, const Eigen::Isometry3d& T_a_b, double radius_m);
+double overlap(const PyramidLevel& a, const PyramidLevel& b, const Eigen::Isometry3d& T_a_b, double radius_m);
 
 }  // namespace tcm_icp

@@ -6,15 +6,19 @@
 #include <vector>
 
 #include "tcm_icp/core/cloud.hpp"
-#include "tcm_icp/core/neighbor_index.hpp"
+#include "tcm_icp/core/grid_index.hpp"
 
 namespace tcm_icp {
 
-/// One resolution: cloud with normals and its kd-tree.
+/// One resolution: cloud with normals, and what finds neighbours a few voxels away.
 struct PyramidLevel {
-  double voxel_size_m = 0;
+  /// @param voxel_size_m  > 0
+  /// @throws InvalidInput  if a point is not finite
+  PyramidLevel(double voxel_size_m, Cloud cloud);
+
+  double voxel_size_m;
   Cloud cloud;
-  NeighborIndex index;
+  GridIndex index;
 };
 
 /// Voxel edges double from level to level; level 0 is the finest. The levels of all scans of a set have the same edges,
