@@ -12,8 +12,10 @@
 
 #include "neighbor_adapters.hpp"
 #include "street_scan.hpp"
+#include "tcm_icp/core/grid_index.hpp"
 #include "tcm_icp/core/random.hpp"
 #include "tcm_icp/core/rigid_transform.hpp"
+#include "tcm_icp/core/voxel_sampler.hpp"
 
 namespace tcm_icp {
 namespace {
@@ -108,6 +110,52 @@ void nearest_16(benchmark::State& state) {
   Index index(work.points);
   run_queries(state, work.near_queries, [&](const auto& q) { return index.farthest_of_nearest_k(q, kNumNeighbors); });
 }
+
+constexpr double kVoxel_m = 0.25;
+
+// As a pair is fitted and measured: among voxel-sampled points, where the scans lie near and where they do not yet.
+template <typename Search>
+void within_two_voxels(benchmark::State& state, const Points& of, const Search& search) {
+  run_queries(state, voxel_downsample({of, {}}, kVoxel_m).points, [&](const auto& q) {
+    const Neighbor found = search.nearest_within(q, 2 * kVoxel_m);
+    return found.found() ? std::sqrt(found.squared_distance_m2) : -1;
+  });
+}
+
+Points voxel_sample() { return voxel_downsample({workload(1'000'000).points, {}}, kVoxel_m).points; }
+
+void near_in_voxels_by_tree(benchmark::State& state) {
+  within_two_voxels(state, workload(1'000'000).near_queries, NeighborIndex(voxel_sample()));
+}
+void near_in_voxels_by_grid(benchmark::State& state) {
+  within_two_voxels(state, workload(1'000'000).near_queries, GridIndex(voxel_sample(), 5 * kVoxel_m));
+}
+void moved_in_voxels_by_tree(benchmark::State& state) {
+  within_two_voxels(state, workload(1'000'000).moved_queries, NeighborIndex(voxel_sample()));
+}
+void moved_in_voxels_by_grid(benchmark::State& state) {
+  within_two_voxels(state, workload(1'000'000).moved_queries, GridIndex(voxel_sample(), 5 * kVoxel_m));
+}
+void build_tree_of_voxels(benchmark::State& state) {
+  const Points points = voxel_sample();
+  for (auto _ : state) {
+    NeighborIndex index(points);
+    benchmark::DoNotOptimize(&index);
+  }
+}
+void build_grid_of_voxels(benchmark::State& state) {
+  const Points points = voxel_sample();
+  for (auto _ : state) {
+    GridIndex index(points, 5 * kVoxel_m);
+    benchmark::DoNotOptimize(&index);
+  }
+}
+BENCHMARK(near_in_voxels_by_tree)->Unit(benchmark::kMillisecond);
+BENCHMARK(near_in_voxels_by_grid)->Unit(benchmark::kMillisecond);
+BENCHMARK(moved_in_voxels_by_tree)->Unit(benchmark::kMillisecond);
+BENCHMARK(moved_in_voxels_by_grid)->Unit(benchmark::kMillisecond);
+BENCHMARK(build_tree_of_voxels)->Unit(benchmark::kMillisecond);
+BENCHMARK(build_grid_of_voxels)->Unit(benchmark::kMillisecond);
 
 void sizes(benchmark::internal::Benchmark* b) { b->Arg(100'000)->Arg(1'000'000)->Unit(benchmark::kMillisecond); }
 

@@ -85,11 +85,11 @@ GridIndex::GridIndex(std::span<const Eigen::Vector3d> points, double cell_m)
     cell.end = cell.begin;
   }
   keys_.resize(points.size());
-  coordinates_.resize(3 * points.size());
+  for (auto& column : coordinates_) column.resize(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
     const std::size_t to = cells_[slot_of(place[i])].end++;
     keys_[to] = static_cast<std::uint32_t>(i);
-    for (int axis = 0; axis < 3; ++axis) coordinates_[3 * to + static_cast<std::size_t>(axis)] = points[i][axis];
+    for (std::size_t axis = 0; axis < 3; ++axis) coordinates_[axis][to] = points[i][static_cast<int>(axis)];
   }
   for (const std::uint32_t from : occupied) {
     const std::int64_t x = from >> 20U, y = from >> 10U & kAxisMask, z = from & kAxisMask;
@@ -144,13 +144,31 @@ void GridIndex::grow() {
   }
 }
 
+// Distances first, the least of them, and then whose it is: without a branch for each point, two at a time.
 void GridIndex::look_into(const Cell& cell, const Eigen::Vector3d& query, Neighbor& best) const {
-  const double* c = coordinates_.data() + 3 * std::size_t{cell.begin};
-  for (std::uint32_t k = cell.begin; k < cell.end; ++k, c += 3) {
-    const double x = query.x() - c[0], y = query.y() - c[1], z = query.z() - c[2];
-    const double squared_m2 = x * x + y * y + z * z;
-    if (squared_m2 > best.squared_distance_m2) continue;
-    if (squared_m2 < best.squared_distance_m2 || keys_[k] < best.index) best = {keys_[k], squared_m2};
+  constexpr std::uint32_t kAtOnce = 64;
+  std::array<double, kAtOnce> squared_m2;
+  for (std::uint32_t begin = cell.begin; begin < cell.end; begin += kAtOnce) {
+    const std::uint32_t count = std::min(kAtOnce, cell.end - begin);
+    const double *x = &coordinates_[0][begin], *y = &coordinates_[1][begin], *z = &coordinates_[2][begin];
+    for (std::uint32_t k = 0; k < count; ++k) {
+      const double dx = query.x() - x[k], dy = query.y() - y[k], dz = query.z() - z[k];
+      squared_m2[k] = dx * dx + dy * dy + dz * dz;
+    }
+    std::array<double, 4> least;
+    least.fill(std::numeric_limits<double>::infinity());
+    std::uint32_t k = 0;
+    for (; k + 4 <= count; k += 4) {
+      for (std::uint32_t lane = 0; lane < 4; ++lane) least[lane] = std::min(least[lane], squared_m2[k + lane]);
+    }
+    for (; k < count; ++k) least[0] = std::min(least[0], squared_m2[k]);
+    const double nearest_m2 = std::min(std::min(least[0], least[1]), std::min(least[2], least[3]));
+    if (nearest_m2 > best.squared_distance_m2) continue;
+    for (k = 0; k < count; ++k) {
+      if (squared_m2[k] != nearest_m2) continue;
+      const std::uint32_t key = keys_[begin + k];
+      if (nearest_m2 < best.squared_distance_m2 || key < best.index) best = {key, nearest_m2};
+    }
   }
 }
 

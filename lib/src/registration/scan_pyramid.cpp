@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kSearchedHalvings = 4;  // beyond the first size that may be enough: scans are surfaces, not solids
 constexpr int kMaxHalvings = 40;      // 1e-12 of the diagonal
-constexpr double kCellVoxels = 6;     // of the index: no distance that is asked of a level is longer
+constexpr double kCellVoxels = 5;     // of the index: distances that are asked of a level are up to that
 
 }  // namespace
 

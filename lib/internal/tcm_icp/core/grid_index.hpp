@@ -49,10 +49,10 @@ class GridIndex {
   Eigen::Vector3d low_ = Eigen::Vector3d::Zero(), extent_ = Eigen::Vector3d::Zero();
   double cell_m_ = 0, cells_per_m_ = 0, slack_m_ = 0;
   std::uint32_t num_cells_ = 0;
-  int shift_ = 32;                                                  ///< of a hash, to a slot
-  std::vector<Cell, PagedAllocator<Cell>> cells_;                   ///< open addressing, linear probing
-  std::vector<std::uint32_t, PagedAllocator<std::uint32_t>> keys_;  ///< of points, cell by cell
-  std::vector<double, PagedAllocator<double>> coordinates_;
+  int shift_ = 32;                                                          ///< of a hash, to a slot
+  std::vector<Cell, PagedAllocator<Cell>> cells_;                           ///< open addressing, linear probing
+  std::vector<std::uint32_t, PagedAllocator<std::uint32_t>> keys_;          ///< of points, cell by cell
+  std::array<std::vector<double, PagedAllocator<double>>, 3> coordinates_;  ///< of an axis each, as keys
 };
 
 }  // namespace tcm_icp
