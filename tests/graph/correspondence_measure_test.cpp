@@ -4,6 +4,7 @@
 
 #include <limits>
 
+#include "registration/level_of.hpp"
 #include "support/random_points.hpp"
 #include "tcm_icp/core/error.hpp"
 #include "tcm_icp/core/rigid_transform.hpp"
@@ -17,8 +18,6 @@ struct Indexed {
   Points points;
   NeighborIndex index;
 };
-
-PyramidLevel level_of_points(const Points& points) { return {0.5, {points, {}}}; }
 
 const Eigen::Isometry3d kSameFrame = Eigen::Isometry3d::Identity();
 
@@ -52,8 +51,8 @@ TEST(CorrespondenceDistance, ASampleOfALargeCloudStandsForIt) {
 }
 
 TEST(Overlap, CountsThePointsWithANeighbourInReach) {
-  const PyramidLevel a = level_of_points({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {9, 0, 0}});
-  const PyramidLevel b = level_of_points({{0, 0, 0.5}, {1, 0, 0.5}});
+  const PyramidLevel a = testing::level_of({{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {9, 0, 0}}, {}});
+  const PyramidLevel b = testing::level_of({{{0, 0, 0.5}, {1, 0, 0.5}}, {}});
   EXPECT_DOUBLE_EQ(overlap_share(a, b, kSameFrame, 0.6), 0.5);  // the first two of four
   EXPECT_DOUBLE_EQ(overlap_share(b, a, kSameFrame, 0.6), 1.0);
   EXPECT_DOUBLE_EQ(overlap_share(a, b, kSameFrame, 0.4), 0.0);
@@ -68,7 +67,7 @@ TEST(Overlap, UndoesTheMotionBetweenTheFrames) {
   Twist twist;
   twist << 1.2, 0.5, -0.9, 30, 20, -10;
   const Eigen::Isometry3d T_a_b = isometry_from_twist(twist);
-  const PyramidLevel in_a = level_of_points(a), in_b = level_of_points(transformed({a, {}}, T_a_b.inverse()).points);
+  const PyramidLevel in_a = testing::level_of({a, {}}), in_b = testing::level_of(transformed({a, {}}, T_a_b.inverse()));
   ASSERT_LT(overlap(in_a, in_b, kSameFrame, 0.01), 0.1);
   EXPECT_EQ(overlap(in_a, in_b, T_a_b, 0.01), 1);
   EXPECT_EQ(overlap(in_b, in_a, T_a_b.inverse(), 0.01), 1);
@@ -76,7 +75,7 @@ TEST(Overlap, UndoesTheMotionBetweenTheFrames) {
 
 TEST(Overlap, RefusesEmptyCloudsAndRadiiThatAreNone) {
   EXPECT_THROW(correspondence_distance(Indexed(Points{}), Indexed({{0, 0, 0}})), InvalidInput);
-  const PyramidLevel none = level_of_points({}), one = level_of_points({{0, 0, 0}});
+  const PyramidLevel none = testing::level_of({}), one = testing::level_of({{{0, 0, 0}}, {}});
   EXPECT_THROW(overlap_share(one, none, kSameFrame, 1), InvalidInput);
   EXPECT_THROW(overlap_share(one, one, kSameFrame, 0), InvalidInput);
   EXPECT_THROW(overlap_share(one, one, kSameFrame, std::numeric_limits<double>::quiet_NaN()), InvalidInput);

@@ -72,7 +72,7 @@ GridIndex::GridIndex(std::span<const Eigen::Vector3d> points, double cell_m)
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Place p = place_of(points[i] - low_);
     place[i] = packed(p[0], p[1], p[2]);
-    ++cells_[add(place[i])].end;
+    ++add(place[i]).end;
   }
   std::vector<std::uint32_t> occupied;
   occupied.reserve(num_cells_);
@@ -95,7 +95,7 @@ GridIndex::GridIndex(std::span<const Eigen::Vector3d> points, double cell_m)
     const std::int64_t x = from >> 20U, y = from >> 10U & kAxisMask, z = from & kAxisMask;
     for (std::size_t k = 1; k < kAround.steps.size(); ++k) {
       const auto& step = kAround.steps[k];
-      cells_[add(packed(x - step[0], y - step[1], z - step[2]))].occupied |= 1U << k;
+      add(packed(x - step[0], y - step[1], z - step[2])).occupied |= 1U << k;
     }
   }
   for (Cell& cell : cells_) {
@@ -121,8 +121,8 @@ std::size_t GridIndex::slot_of(std::uint32_t place) const {
   return i;
 }
 
-// The cell's slot; its own bit is set where it is new.
-std::uint32_t GridIndex::add(std::uint32_t place) {
+// Its own bit is set where it is new.
+GridIndex::Cell& GridIndex::add(std::uint32_t place) {
   std::size_t i = slot_of(place);
   if (cells_[i].occupied == 0) {
     if (4 * (std::size_t{num_cells_} + 1) > 3 * cells_.size()) {
@@ -132,7 +132,7 @@ std::uint32_t GridIndex::add(std::uint32_t place) {
     cells_[i] = {place, 1, 0, 0};
     ++num_cells_;
   }
-  return static_cast<std::uint32_t>(i);
+  return cells_[i];
 }
 
 void GridIndex::grow() {

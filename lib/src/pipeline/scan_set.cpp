@@ -19,16 +19,10 @@
 namespace tcm_icp {
 namespace {
 
-double correspondence(const PreparedScan& scan_a, const PreparedScan& scan_b, const Eigen::Isometry3d& T_a_b,
-                      Profile profile) {
-  const PyramidLevel& a = scan_a.pyramid.level(1);
-  const PyramidLevel& b = scan_b.pyramid.level(1);
-  if (profile == Profile::kPaper) {
-    const Points moved = transformed({b.cloud.points, {}}, T_a_b).points;
-    const NeighborIndex index(moved);
-    return correspondence_distance({a.cloud.points, NeighborIndex(a.cloud.points)}, {moved, index});
-  }
-  return 1 - overlap(a, b, T_a_b, 2 * a.voxel_size_m);
+double paper_correspondence(const IndexedPoints& a, const Points& b, const Eigen::Isometry3d& T_a_b) {
+  const Points moved = transformed({b, {}}, T_a_b).points;
+  const NeighborIndex index(moved);
+  return correspondence_distance(a, {moved, index});
 }
 
 [[noreturn]] void refuse_twice(const std::filesystem::path& name) {
@@ -200,11 +194,17 @@ CorrespondenceGraph compare_scans(const std::vector<PreparedScan>& scans,
   Eigen::MatrixXd measure = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(n), static_cast<Eigen::Index>(n));
   for (std::size_t i = 0; i < n; ++i) {
     context.report("comparing", i, n);
+    const PyramidLevel& a = scans[i].pyramid.level(1);
+    std::optional<NeighborIndex> index;
+    if (options.profile == Profile::kPaper) index.emplace(a.cloud.points);
     parallel_for(context.num_threads, n - i - 1, [&](std::size_t begin, std::size_t end) {
       for (std::size_t j = i + 1 + begin; j < i + 1 + end; ++j) {
         const Eigen::Isometry3d T_i_j = T_common_local[i].inverse() * T_common_local[j];
+        const PyramidLevel& b = scans[j].pyramid.level(1);
         const auto row = static_cast<Eigen::Index>(i), column = static_cast<Eigen::Index>(j);
-        measure(row, column) = measure(column, row) = correspondence(scans[i], scans[j], T_i_j, options.profile);
+        measure(row, column) = measure(column, row) =
+            index ? paper_correspondence({a.cloud.points, *index}, b.cloud.points, T_i_j)
+                  : 1 - overlap(a, b, T_i_j, 2 * a.voxel_size_m);
       }
     });
   }

@@ -74,11 +74,8 @@ Resolutions choose_resolutions(const std::vector<SampledScan>& scans, const Samp
   std::vector<double> coarse(scans.size()), fine(scans.size());
   parallel_for(num_threads, scans.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      const Points& points = scans[i].scan.cloud.points;
-      coarse[i] = voxel_size_for(points, options.coarse_voxels);
-      // Of fewer points than either asks for, both are what the points allow.
-      const bool is_same = std::min(options.coarse_voxels, options.fine_voxels) >= points.size() / 2;
-      fine[i] = is_same ? coarse[i] : voxel_size_for(points, options.fine_voxels);
+      coarse[i] = voxel_size_for(scans[i].scan.cloud.points, options.coarse_voxels);
+      fine[i] = voxel_size_for(scans[i].scan.cloud.points, options.fine_voxels);
     }
   });
   std::vector<double> coverage, noise;

@@ -12,7 +12,7 @@
 
 namespace tcm_icp {
 
-/// What NeighborIndex finds, bit for bit, by cell lists: of voxel-sampled surfaces a cell of a few voxels holds some 16
+/// What NeighborIndex finds, bit for bit, by cell lists: of voxel-sampled surfaces a cell of five voxels holds some 25
 /// points, and a query asks one or two cells where a kd-tree goes down ten levels and looks into several leaves. Of
 /// points that lie in heaps, or for radii above a cell, a kd-tree is faster. Queries are const and thread-safe.
 /// Cost: O(N) to build, O(points about the query) a query; 28 bytes a point, and 21 to 43 for each cell that holds or
@@ -21,7 +21,8 @@ class GridIndex {
  public:
   /// @param points  finite
   /// @param cell_m  > 0; edge of a cell, the largest radius that is fast
-  /// @throws InvalidInput  if a coordinate is not finite, or there are more than 4,000,000,000 points
+  /// @throws InvalidInput  if a coordinate is not finite, or there are more than 4,000,000,000 points;
+  ///         InvalidOptions  if the cell has no edge, or one too short or long to be divided by
   GridIndex(std::span<const Eigen::Vector3d> points, double cell_m);
 
   std::size_t size() const { return keys_.size(); }
@@ -41,7 +42,7 @@ class GridIndex {
 
   Place place_of(const Eigen::Vector3d& offset) const;
   std::size_t slot_of(std::uint32_t place) const;
-  std::uint32_t add(std::uint32_t place);
+  Cell& add(std::uint32_t place);
   void grow();
   void look_into(const Cell& cell, const Eigen::Vector3d& query, Neighbor& best) const;
   void look_farther(const Place& own, const Eigen::Vector3d& query, double radius_m, Neighbor& best) const;
