@@ -13,11 +13,9 @@ build/.
 import argparse
 import csv
 import json
-import resource
 import shutil
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 try:
@@ -26,6 +24,7 @@ try:
 except ImportError:
     sys.exit("large_sets.py: apt install python3-numpy python3-matplotlib, and run it with /usr/bin/python3")
 
+from benchmark.spent import run
 from first_scans import first_scans
 from paper.executable import find_exe
 from paper.print_size import PAGE_IN, save
@@ -36,16 +35,6 @@ SIMULATED = ("--scene", "town-grid", "--seed", "5", "--step", "0.4", "--thinning
 HEADER = ("scans", "right", "flagged", "WRONG", "largest error [mm]", "processor time [s]", "wall time [s]", "memory [MB]",
           "read [s]", "prepare [s]", "link [s]", "merge [s]", "adjust [s]", "write [s]")
 STAGES = ("read and sample", "prepare", "link", "merge", "adjust and verify", "write")
-
-
-def spent(command):
-    """(processor time, wall time) of a program that may leave scans unregistered."""
-    before, start = resource.getrusage(resource.RUSAGE_CHILDREN), time.monotonic()
-    run = subprocess.run(command, stdout=subprocess.DEVNULL, check=False)
-    after, wall_s = resource.getrusage(resource.RUSAGE_CHILDREN), time.monotonic() - start
-    if run.returncode not in (0, 3):
-        sys.exit(f"large_sets.py: {' '.join(map(str, command[:2]))} failed")
-    return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime, wall_s
 
 
 def simulated(exe, num_scans, out):
@@ -65,9 +54,12 @@ def measured(exe, town, num_scans, threads, options, out):
     except ValueError as error:
         sys.exit(f"large_sets.py: {error}: name another --out")
     if not times.exists() or not (result / "poses.json").exists():
-        cpu_s, wall_s = spent([exe, "register", *sorted(scene.glob("*.ply")), "--out", result, "--force", "--quiet",
-                               "--threads", str(threads), *options])
-        times.write_text(json.dumps({"cpu_s": cpu_s, "wall_s": wall_s}), encoding="utf-8")
+        try:  # scans that are left unregistered are no failure
+            spent = run([exe, "register", *sorted(scene.glob("*.ply")), "--out", result, "--force", "--quiet",
+                         "--threads", threads, *options], accept=(0, 3))
+        except RuntimeError as error:
+            sys.exit(f"large_sets.py: {error}")
+        times.write_text(json.dumps({"cpu_s": spent.cpu_s, "wall_s": spent.wall_s}), encoding="utf-8")
     counts, details = score_poses(scene, result / "poses.json")
     stages = json.loads((result / "report.json").read_text(encoding="utf-8"))["stages"]
     spent_s = json.loads(times.read_text(encoding="utf-8"))
