@@ -29,7 +29,7 @@ except ImportError:
 from calibration import labels, logistic, sets, softmin
 
 ROOT = Path(__file__).resolve().parent.parent
-PLACE, SIGNS = (0, 1), (1, 1, 1, 1, 1, -1, -1, -1, -1, 0, -1, -1, 1, -1)
+PLACE, SIGNS = (0, 1, 14, 15), (1, 1, 1, 1, 1, -1, -1, -1, -1, 0, -1, -1, 1, -1, 1, 1)
 RIDGE = 2.0
 SPREAD = 0.5  # of sets' own constants in log-odds; of 0, 0.5, 1 and 2 best where each run then learns its own
 

@@ -13,7 +13,7 @@ namespace {
 
 // The model's coefficients are fitted, and fitted anew: nothing here depends on their values.
 
-const ComponentReference kUsual{0.8, 0.01};
+const ComponentReference kUsual{0.8, 0.01, 6};
 const DecisionOptions kAny{.confidence = 0}, kDefault;
 
 ScanMeasurements good() {
@@ -94,6 +94,17 @@ TEST(Decide, ALostLeadMakesAPlaceLessProbable) {
   ScanMeasurements m = good();
   m.lead = -10;
   EXPECT_LT(decide(m, kUsual, kDefault).probability, decide(good(), kUsual, kDefault).probability);
+}
+
+TEST(Decide, ALeadOfMorePairsIsNeverMoreProbable) {
+  double last = 1;
+  for (const std::size_t num_across : {1u, 2u, 3u, 10u, 30u, 1000u}) {
+    ScanMeasurements m = good();
+    m.num_across = num_across;
+    const double now = decide(m, kUsual, kDefault).probability;
+    EXPECT_LE(now, last) << "of " << num_across;
+    last = now;
+  }
 }
 
 TEST(Decide, ConfidenceIsTheLeastProbability) {
@@ -179,6 +190,21 @@ TEST(DecisionFeatures, AreFiniteAndBoundedWhateverWasMeasured) {
   }
 }
 
+TEST(DecisionFeatures, LeadAPairIsComparedWithThatOfTheSet) {
+  ScanMeasurements m = good();
+  m.lead = 12;
+  m.num_across = 6;
+  EXPECT_EQ(m.lead_a_pair(), 2);
+  EXPECT_DOUBLE_EQ(decision_features(m, kUsual)[14], std::log1p(2));
+  EXPECT_DOUBLE_EQ(decision_features(m, kUsual)[15], std::log1p(2) - std::log1p(6));
+  m.num_across = 1;
+  EXPECT_EQ(decision_features(m, kUsual)[15], 0) << "what has more than others is not better for it";
+  m.num_across = 0;
+  EXPECT_EQ(m.lead_a_pair(), 12) << "no pair counts like one";
+  m.lead = -3;
+  EXPECT_EQ(m.lead_a_pair(), 0);
+}
+
 TEST(DecisionFeatures, UnitsDoNotMatter) {
   for (const double factor : {0.001, 1000.0}) {
     ScanMeasurements scaled = terrible();
@@ -186,7 +212,8 @@ TEST(DecisionFeatures, UnitsDoNotMatter) {
     scaled.evidence.tolerance_m *= factor;
     scaled.evidence.slide_m *= factor;
     *scaled.other_distance *= factor;
-    const DecisionFeatures f = decision_features(scaled, {kUsual.inlier_share, factor * kUsual.residual_m}),
+    const DecisionFeatures f = decision_features(scaled,
+                                                 {kUsual.inlier_share, factor * kUsual.residual_m, kUsual.lead_a_pair}),
                            in_m = decision_features(terrible(), kUsual);
     for (std::size_t i = 0; i < f.size(); ++i) EXPECT_NEAR(f[i], in_m[i], 1e-12) << kDecisionFeatureNames[i];
   }
@@ -201,6 +228,8 @@ TEST(ComponentReference, IsWhatTheMiddleMemberShows) {
   }
   EXPECT_EQ(ComponentReference::of(members).inlier_share, 0.7);
   EXPECT_EQ(ComponentReference::of(members).residual_m, 0.03);
+  for (std::size_t i = 0; i < 5; ++i) members[i].num_across = i + 1;
+  EXPECT_DOUBLE_EQ(ComponentReference::of(members).lead_a_pair, 20.0 / 3);
   members.resize(2);
   EXPECT_EQ(ComponentReference::of(members).inlier_share, 0.9);
   EXPECT_EQ(ComponentReference::of(members).residual_m, 0.01) << "of two the better counts";

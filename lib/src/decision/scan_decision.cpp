@@ -30,7 +30,7 @@ struct ScanModel {
 
 #include "scan_model.inc"
 
-constexpr double kMostLead = 40, kLeastLead = -10;
+constexpr double kMostLead = 40, kLeastLead = -10, kMostLeadAPair = 1000;
 constexpr double kLeastSigma = 0.01, kMostSigma = 2;  // in coarse voxels
 constexpr std::size_t kNumReasons = static_cast<std::size_t>(Reason::kTooFewPoints) + 1;
 
@@ -38,7 +38,7 @@ double agreeing(const AlignmentEvidence& e) { return e.consensus() * static_cast
 
 // What features belong to what can be said of a scan.
 Reason reason_of(std::size_t feature) {
-  if (feature <= 1) return Reason::kAmbiguous;
+  if (feature <= 1 || feature >= 14) return Reason::kAmbiguous;
   if (feature == 13) return Reason::kInexact;
   if (feature <= 5 || feature == 12) return Reason::kMisfit;
   return feature <= 9 ? Reason::kSlides : Reason::kSeenThrough;
@@ -73,16 +73,22 @@ std::string describe(Reason reason, const ScanMeasurements& m, const ComponentRe
 
 }  // namespace
 
+double ScanMeasurements::lead_a_pair() const {
+  return std::clamp(lead, 0.0, kMostLeadAPair) / static_cast<double>(std::max<std::size_t>(num_across, 1));
+}
+
 ComponentReference ComponentReference::of(const std::vector<ScanMeasurements>& members) {
-  std::vector<double> shares, residuals_m;
+  std::vector<double> shares, residuals_m, leads_a_pair;
   for (const auto& m : members) {
     shares.push_back(m.evidence.inlier_share);
     residuals_m.push_back(m.evidence.median_residual_m);
+    leads_a_pair.push_back(m.lead_a_pair());
   }
   if (shares.empty()) return {};
   std::sort(shares.begin(), shares.end());
   std::sort(residuals_m.begin(), residuals_m.end());
-  return {shares[shares.size() / 2], residuals_m[(residuals_m.size() - 1) / 2]};
+  std::sort(leads_a_pair.begin(), leads_a_pair.end());
+  return {shares[shares.size() / 2], residuals_m[(residuals_m.size() - 1) / 2], leads_a_pair[leads_a_pair.size() / 2]};
 }
 
 DecisionFeatures decision_features(const ScanMeasurements& m, const ComponentReference& component) {
@@ -103,6 +109,8 @@ DecisionFeatures decision_features(const ScanMeasurements& m, const ComponentRef
   f[11] = std::max(opposed(m.free_space), opposed(m.free_space_across));
   f[12] = std::log(std::clamp(agreeing(e), 1.0, 1000.0) / 1000);
   f[13] = std::log(std::clamp(m.sigma_in_voxels.value_or(kMostSigma), kLeastSigma, kMostSigma));
+  f[14] = std::log1p(m.lead_a_pair());
+  f[15] = std::min(0.0, f[14] - std::log1p(component.lead_a_pair));
   return f;
 }
 

@@ -28,19 +28,24 @@ struct ScanMeasurements {
   /// with it. What holds within the group says nothing of its place.
   std::size_t num_across = 0;
   FreeSpaceEvidence free_space_across;  ///< of these pairs
+
+  /// What a pair across adds to the lead, 0 to 1000. Pairs that have next to nothing to say add up to a lead, too,
+  /// where there are many of them.
+  double lead_a_pair() const;
 };
 
 /// What scans of a component usually show.
 struct ComponentReference {
   double inlier_share = 0;  ///< median
   double residual_m = 0;    ///< [m] lower median: of two scans the better counts
+  double lead_a_pair = 0;   ///< median
   static ComponentReference of(const std::vector<ScanMeasurements>& members);
 };
 
-inline constexpr std::array<std::string_view, 14> kDecisionFeatureNames{
-    "lead",         "log_lead",  "log_overlap", "log_inlier_share", "inliers_by_set", "residual_by_set",
-    "weakest_left", "mean_left", "left_across", "across_unknown",   "violations",     "opposed",
-    "few_agree",    "sigma"};
+inline constexpr std::array<std::string_view, 16> kDecisionFeatureNames{
+    "lead",         "log_lead",  "log_overlap",     "log_inlier_share", "inliers_by_set", "residual_by_set",
+    "weakest_left", "mean_left", "left_across",     "across_unknown",   "violations",     "opposed",
+    "few_agree",    "sigma",     "log_lead_a_pair", "lead_by_set"};
 using DecisionFeatures = std::array<double, kDecisionFeatureNames.size()>;
 
 /// Finite, without a unit, within bounds.
