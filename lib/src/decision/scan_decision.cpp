@@ -85,10 +85,8 @@ ComponentReference ComponentReference::of(const std::vector<ScanMeasurements>& m
     leads_a_pair.push_back(m.lead_a_pair());
   }
   if (shares.empty()) return {};
-  std::sort(shares.begin(), shares.end());
   std::sort(residuals_m.begin(), residuals_m.end());
-  std::sort(leads_a_pair.begin(), leads_a_pair.end());
-  return {shares[shares.size() / 2], residuals_m[(residuals_m.size() - 1) / 2], leads_a_pair[leads_a_pair.size() / 2]};
+  return {median(shares), residuals_m[(residuals_m.size() - 1) / 2], median(leads_a_pair)};
 }
 
 DecisionFeatures decision_features(const ScanMeasurements& m, const ComponentReference& component) {
