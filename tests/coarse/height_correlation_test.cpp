@@ -29,9 +29,22 @@ std::vector<const Cloud*> pointers(const std::vector<Cloud>& scans) {
   return out;
 }
 
+std::vector<std::vector<PoseCandidate>> poses_of(const std::vector<const Cloud*>& scans,
+                                                 const std::vector<ScanPair>& pairs,
+                                                 const HeightCorrelationOptions& options, int num_threads) {
+  ScansFromAbove from_above(scans);
+  return correlate_height_maps(from_above, pairs, options, num_threads);
+}
+
+std::vector<PairScreening> screened(const std::vector<const Cloud*>& scans, const std::vector<ScanPair>& pairs,
+                                    const HeightCorrelationOptions& options, int num_threads) {
+  ScansFromAbove from_above(scans);
+  return screen_by_height_maps(from_above, pairs, options, num_threads);
+}
+
 void expect_found(const SyntheticScene& scene) {
   const std::vector<ScanPair> pairs = {{0, 1}, {0, 2}, {2, 1}};
-  const auto found = correlate_height_maps(pointers(scene.scans), pairs, {}, 1);
+  const auto found = poses_of(pointers(scene.scans), pairs, {}, 1);
   ASSERT_EQ(found.size(), pairs.size());
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     const Eigen::Isometry3d truth = scene.T_target_source(pairs[k].target, pairs[k].source);
@@ -71,7 +84,7 @@ TEST(HeightCorrelation, HasNoMarginForAStranger) {
   options.shape = SyntheticShape::kRubble;
   options.points_per_scan = 20000;
   scene.scans.push_back(synthetic_scene(options, rng).scans[0]);
-  const auto found = correlate_height_maps(pointers(scene.scans), {{0, 1}, {0, 3}, {3, 1}}, {}, 1);
+  const auto found = poses_of(pointers(scene.scans), {{0, 1}, {0, 3}, {3, 1}}, {}, 1);
   for (const std::size_t stranger : {1, 2}) {
     ASSERT_FALSE(found[stranger].empty());
     EXPECT_LT(found[stranger].front().score, found[0].front().score);
@@ -89,28 +102,28 @@ TEST(HeightCorrelation, ScreeningRanksScansOfOnePlaceBeforeAStranger) {
     scans.push_back(&there.scans[0]);
     const std::vector<ScanPair> pairs = {{0, 1}, {0, 2}, {1, 2}, {0, 3}, {1, 3}, {3, 2}};
     std::vector<double> scores, on_one_thread;
-    for (const auto& found : screen_by_height_maps(scans, pairs, screening_options(), 2)) {
+    for (const auto& found : screened(scans, pairs, screening_options(), 2)) {
       scores.push_back(found.score);
       EXPECT_FALSE(found.ups.empty()) << "a pair with a peak names the directions it was found with";
     }
     const double least = *std::min_element(scores.begin(), scores.begin() + 3);
     const double most = *std::max_element(scores.begin() + 3, scores.end());
     EXPECT_GT(least, 1.2 * most);
-    for (const auto& found : screen_by_height_maps(scans, pairs, screening_options(), 1)) {
+    for (const auto& found : screened(scans, pairs, screening_options(), 1)) {
       on_one_thread.push_back(found.score);
     }
     EXPECT_EQ(on_one_thread, scores) << "threads change nothing";
   }
-  EXPECT_THROW(screen_by_height_maps({}, {{0, 1}}, screening_options(), 1), InvalidInput);
+  EXPECT_THROW(screened({}, {{0, 1}}, screening_options(), 1), InvalidInput);
 }
 
 TEST(HeightCorrelation, IsTheSameForAnyNumberOfThreads) {
   Rng rng = make_stream(5, "test");
   const SyntheticScene scene = yard(0.02, 0, rng);
   const std::vector<ScanPair> pairs = {{0, 1}, {0, 2}, {1, 2}};
-  const auto one = correlate_height_maps(pointers(scene.scans), pairs, {}, 1);
+  const auto one = poses_of(pointers(scene.scans), pairs, {}, 1);
   for (const int num_threads : {2, 5}) {
-    const auto many = correlate_height_maps(pointers(scene.scans), pairs, {}, num_threads);
+    const auto many = poses_of(pointers(scene.scans), pairs, {}, num_threads);
     for (std::size_t k = 0; k < pairs.size(); ++k) {
       ASSERT_EQ(one[k].size(), many[k].size());
       for (std::size_t i = 0; i < one[k].size(); ++i) {
@@ -118,6 +131,25 @@ TEST(HeightCorrelation, IsTheSameForAnyNumberOfThreads) {
         EXPECT_EQ(one[k][i].score, many[k][i].score);
       }
     }
+  }
+}
+
+TEST(HeightCorrelation, WhatIsKnownOfScansChangesNothing) {
+  Rng rng = make_stream(12, "test");
+  const SyntheticScene scene = yard(0.02, 0, rng);
+  ScansFromAbove from_above(pointers(scene.scans));
+  EXPECT_TRUE(from_above.footprints(0).empty());
+  const std::vector<ScanPair> pairs = {{0, 1}};
+  const auto first = correlate_height_maps(from_above, pairs, {}, 1)[0];
+  const std::vector<Footprint> known = from_above.footprints(0);
+  ASSERT_FALSE(known.empty());
+  const auto second = correlate_height_maps(from_above, pairs, {}, 1)[0];
+  EXPECT_EQ(from_above.footprints(0).size(), known.size()) << "nothing is found twice";
+  EXPECT_EQ(from_above.footprints(0).front().T_map_scan.matrix(), known.front().T_map_scan.matrix());
+  ASSERT_EQ(first.size(), second.size());
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    EXPECT_EQ(first[i].T_target_source.matrix(), second[i].T_target_source.matrix());
+    EXPECT_EQ(first[i].score, second[i].score);
   }
 }
 
@@ -134,9 +166,9 @@ TEST(HeightCorrelation, PairsOfManyScansAreSearchedAsIfAlone) {
     pairs.push_back({3 * copy + 2, (3 * copy + 40) % scans.size()});
   }
   HeightCorrelationOptions options = screening_options();
-  const auto all = correlate_height_maps(scans, pairs, options, 2);
+  const auto all = poses_of(scans, pairs, options, 2);
   for (const std::size_t k : {std::size_t{0}, std::size_t{1}, pairs.size() / 2 + 1, pairs.size() - 1}) {
-    const auto alone = correlate_height_maps(scans, {pairs[k]}, options, 1)[0];
+    const auto alone = poses_of(scans, {pairs[k]}, options, 1)[0];
     ASSERT_EQ(alone.size(), all[k].size());
     for (std::size_t i = 0; i < alone.size(); ++i) {
       EXPECT_EQ(alone[i].T_target_source.matrix(), all[k][i].T_target_source.matrix());
@@ -151,8 +183,8 @@ TEST(HeightCorrelation, ScalesWithTheInput) {
   constexpr double kFactor = 1000;
   std::vector<Cloud> large;
   for (const auto& scan : scene.scans) large.push_back(scaled_cloud(scan, kFactor));
-  const auto expected = correlate_height_maps(pointers(scene.scans), {{0, 1}}, {}, 1)[0].front();
-  const auto actual = correlate_height_maps(pointers(large), {{0, 1}}, {}, 1)[0].front();
+  const auto expected = poses_of(pointers(scene.scans), {{0, 1}}, {}, 1)[0].front();
+  const auto actual = poses_of(pointers(large), {{0, 1}}, {}, 1)[0].front();
   EXPECT_EQ(actual.score, expected.score) << "not the same bits";
   EXPECT_LT(pose_rmse_m(scaled_pose(expected.T_target_source, kFactor), actual.T_target_source, large[1].points),
             1e-9 * kFactor);
@@ -166,14 +198,14 @@ TEST(HeightCorrelation, AnswersForDegenerateScans) {
     scans[1].points.emplace_back(i % 20, i / 20, 0);
   }
   scans[2].points = random_points(5, 1, rng);
-  const auto found = correlate_height_maps(pointers(scans), {{0, 1}, {1, 2}, {2, 0}, {1, 1}}, {}, 1);
+  const auto found = poses_of(pointers(scans), {{0, 1}, {1, 2}, {2, 0}, {1, 1}}, {}, 1);
   for (const auto& pair : found) {
     for (const auto& candidate : pair) EXPECT_TRUE(is_rigid(candidate.T_target_source.matrix(), 1e-9));
   }
-  EXPECT_TRUE(correlate_height_maps(pointers(scans), {}, {}, 1).empty());
-  EXPECT_THROW(correlate_height_maps(pointers(scans), {{0, 3}}, {}, 1), InvalidInput);
+  EXPECT_TRUE(poses_of(pointers(scans), {}, {}, 1).empty());
+  EXPECT_THROW(poses_of(pointers(scans), {{0, 3}}, {}, 1), InvalidInput);
   scans[1].points.assign(10, Eigen::Vector3d::Ones());
-  EXPECT_THROW(correlate_height_maps(pointers(scans), {{0, 1}}, {}, 1), InvalidInput);
+  EXPECT_THROW(poses_of(pointers(scans), {{0, 1}}, {}, 1), InvalidInput);
 }
 
 TEST(HeightCorrelation, RejectsOptionsOutOfBounds) {

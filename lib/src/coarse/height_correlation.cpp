@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <set>
 #include <span>
 #include <string>
@@ -40,13 +39,12 @@ constexpr std::size_t kScansAtOnce = 64;
 struct ScanMaps {
   // Whether the same axis is looked at with both signs; and whether this is the second of the two.
   bool has_both_signs(std::size_t map) const {
-    return is_second_sign(map) || (map + 1 < footprints.size() && is_second_sign(map + 1));
+    return is_second_sign(map) || (map + 1 < maps.size() && is_second_sign(map + 1));
   }
   bool is_second_sign(std::size_t map) const { return map > 0 && up(map - 1).dot(up(map)) < kOpposite; }
 
-  Eigen::Vector3d up(std::size_t map) const { return footprints[map].T_map_scan.linear().row(2); }
+  Eigen::Vector3d up(std::size_t map) const { return maps[map].T_map_scan.linear().row(2); }
 
-  std::vector<Footprint> footprints;
   std::vector<HeightMap> maps, fine_maps;
   std::vector<MapCells> cells, fine_cells;
   std::vector<MapSpectra> upright, quarter_turned;  // as a target
@@ -54,16 +52,19 @@ struct ScanMaps {
 };
 
 struct HeightSearch {
+  HeightSearch(ScansFromAbove& from, const HeightCorrelationOptions& o, int threads)
+      : from_above(from), options(o), num_threads(threads), scans(from.size()) {}
+
+  ScansFromAbove& from_above;
   const HeightCorrelationOptions& options;
   int num_threads;
   std::vector<ScanMaps> scans;
   double cell_m = 0;
   int grid_size = 0;
 
-  void find_footprints(const std::vector<const Cloud*>& clouds, const std::vector<std::size_t>& members);
   void choose_grid();
-  void make_maps(const std::vector<const Cloud*>& clouds, const std::vector<std::size_t>& members);
-  void make_fine_maps(const std::vector<const Cloud*>& clouds, const std::vector<std::size_t>& members);
+  void make_maps(const std::vector<std::size_t>& members);
+  void make_fine_maps(const std::vector<std::size_t>& members);
   void drop_maps(const std::vector<std::size_t>& members);
   std::vector<PeakList> correlate(std::span<const ScanPair> pairs, const std::vector<std::size_t>& members,
                                   std::size_t num_peaks);
@@ -75,37 +76,18 @@ struct HeightSearch {
   double heading_step_rad() const { return EIGEN_PI / 2 / steps_per_quarter(); }
 };
 
-// Those that are not known yet.
-void HeightSearch::find_footprints(const std::vector<const Cloud*>& clouds, const std::vector<std::size_t>& members) {
-  scans.resize(clouds.size());
-  parallel_for(num_threads, members.size(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t m = begin; m < end; ++m) {
-      const std::size_t i = members[m];
-      if (!scans[i].footprints.empty()) continue;
-      for (const auto& up : find_up_directions(*clouds[i], options.vertical)) {
-        scans[i].footprints.push_back(find_footprint(clouds[i]->points, up));
-      }
-    }
-  });
-}
-
-std::vector<std::size_t> all_of(const std::vector<const Cloud*>& clouds) {
-  std::vector<std::size_t> out(clouds.size());
-  std::iota(out.begin(), out.end(), std::size_t{0});
-  return out;
-}
-
 void HeightSearch::choose_grid() {
   if (options.grid.size > 0) {
     cell_m = options.grid.cell_m;
     grid_size = options.grid.size;
     return;
   }
+  from_above.find_all(num_threads);
   std::vector<double> width_m;
   double largest_m = 0;
-  for (const auto& scan : scans) {
-    width_m.push_back(scan.footprints.front().width_m);
-    for (const auto& footprint : scan.footprints) largest_m = std::max(largest_m, 2 * footprint.radius_m);
+  for (std::size_t i = 0; i < from_above.size(); ++i) {
+    width_m.push_back(from_above.footprints(i).front().width_m);
+    for (const auto& footprint : from_above.footprints(i)) largest_m = std::max(largest_m, 2 * footprint.radius_m);
   }
   // A line has no width: a share of its length, then.
   const double typical_m = std::max(median(width_m), kMinWidthShare * largest_m);
@@ -113,13 +95,14 @@ void HeightSearch::choose_grid() {
   grid_size = fast_size(static_cast<int>(kPadding * largest_m / cell_m));
 }
 
-void HeightSearch::make_maps(const std::vector<const Cloud*>& clouds, const std::vector<std::size_t>& members) {
+void HeightSearch::make_maps(const std::vector<std::size_t>& members) {
+  from_above.find(members, num_threads);
   const Fourier fourier(grid_size);
   parallel_for(num_threads, members.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t m = begin; m < end; ++m) {
       const std::size_t i = members[m];
-      for (const auto& footprint : scans[i].footprints) {
-        scans[i].maps.push_back(make_height_map(*clouds[i], footprint, cell_m, options.map));
+      for (const auto& footprint : from_above.footprints(i)) {
+        scans[i].maps.push_back(make_height_map(from_above.cloud(i), footprint, cell_m, options.map));
         const HeightMap& map = scans[i].maps.back();
         scans[i].upright.push_back(transform(upright_images(map, false, grid_size), fourier));
         scans[i].quarter_turned.push_back(transform(upright_images(map, true, grid_size), fourier));
@@ -129,15 +112,16 @@ void HeightSearch::make_maps(const std::vector<const Cloud*>& clouds, const std:
 }
 
 // In place of the spectra: both would be most of what a set takes.
-void HeightSearch::make_fine_maps(const std::vector<const Cloud*>& clouds, const std::vector<std::size_t>& members) {
+void HeightSearch::make_fine_maps(const std::vector<std::size_t>& members) {
   parallel_for(num_threads, members.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t m = begin; m < end; ++m) {
       ScanMaps& scan = scans[members[m]];
       for (auto* spectra : {&scan.upright, &scan.quarter_turned, &scan.turned})
         std::vector<MapSpectra>().swap(*spectra);
       for (const auto& map : scan.maps) scan.cells.push_back(list_cells(map, kCellsRefined));
-      for (const auto& footprint : scan.footprints) {
-        scan.fine_maps.push_back(make_height_map(*clouds[members[m]], footprint, cell_m / kFineScale, options.map));
+      for (const auto& footprint : from_above.footprints(members[m])) {
+        scan.fine_maps.push_back(
+            make_height_map(from_above.cloud(members[m]), footprint, cell_m / kFineScale, options.map));
         scan.fine_cells.push_back(list_cells(scan.fine_maps.back(), kCellsFine));
       }
     }
@@ -145,11 +129,7 @@ void HeightSearch::make_fine_maps(const std::vector<const Cloud*>& clouds, const
 }
 
 void HeightSearch::drop_maps(const std::vector<std::size_t>& members) {
-  for (const std::size_t i : members) {
-    std::vector<Footprint> footprints = std::move(scans[i].footprints);
-    scans[i] = ScanMaps{};
-    scans[i].footprints = std::move(footprints);
-  }
+  for (const std::size_t i : members) scans[i] = ScanMaps{};
 }
 
 bool wanted(const ScanPair& pair, std::size_t target_map, std::size_t source_map) {
@@ -267,7 +247,6 @@ void HeightCorrelationOptions::validate() const {
   require(heading_step_deg > 0 && heading_step_deg <= 15, "heading_step_deg", heading_step_deg, "in (0, 15]");
   require(min_shared_share >= 0 && min_shared_share <= 1, "min_shared_share", min_shared_share, "between 0 and 1");
   require(max_candidates >= 1, "max_candidates", max_candidates, "at least 1");
-  vertical.validate();
   map.validate();
 }
 
@@ -297,22 +276,20 @@ std::size_t next_block(const std::vector<ScanPair>& pairs, std::size_t begin, st
 
 // use(search, first pair of a block, peaks of its pairs), block by block.
 template <typename Use>
-void search_in_blocks(const std::vector<const Cloud*>& scans, const std::vector<ScanPair>& pairs,
+void search_in_blocks(ScansFromAbove& scans, const std::vector<ScanPair>& pairs,
                       const HeightCorrelationOptions& options, int num_threads, bool for_candidates, Use use) {
   options.validate();
   check_pairs(scans.size(), pairs);
   if (pairs.empty()) return;
-  HeightSearch search{options, num_threads, {}};
-  if (options.grid.size == 0) search.find_footprints(scans, all_of(scans));
+  HeightSearch search(scans, options, num_threads);
   search.choose_grid();
   std::vector<std::size_t> members;
   for (std::size_t begin = 0; begin < pairs.size();) {
     const std::size_t end = next_block(pairs, begin, members);
-    search.find_footprints(scans, members);
-    search.make_maps(scans, members);
+    search.make_maps(members);
     const auto block = std::span(pairs).subspan(begin, end - begin);
     const auto peaks = search.correlate(block, members, for_candidates ? kPeaksRefined : kPeaksScreened);
-    if (for_candidates) search.make_fine_maps(scans, members);
+    if (for_candidates) search.make_fine_maps(members);
     use(search, begin, peaks);
     search.drop_maps(members);
     begin = end;
@@ -321,17 +298,15 @@ void search_in_blocks(const std::vector<const Cloud*>& scans, const std::vector<
 
 }  // namespace
 
-CorrelationGrid choose_correlation_grid(const std::vector<const Cloud*>& scans, const HeightCorrelationOptions& options,
+CorrelationGrid choose_correlation_grid(ScansFromAbove& scans, const HeightCorrelationOptions& options,
                                         int num_threads) {
   options.validate();
-  HeightSearch search{options, num_threads, {}};
-  search.find_footprints(scans, all_of(scans));
+  HeightSearch search(scans, options, num_threads);
   search.choose_grid();
   return {search.cell_m, search.grid_size};
 }
 
-std::vector<PairScreening> screen_by_height_maps(const std::vector<const Cloud*>& scans,
-                                                 const std::vector<ScanPair>& pairs,
+std::vector<PairScreening> screen_by_height_maps(ScansFromAbove& scans, const std::vector<ScanPair>& pairs,
                                                  const HeightCorrelationOptions& options, int num_threads) {
   std::vector<PairScreening> out(pairs.size());
   const auto keep = [&](const HeightSearch&, std::size_t first, const std::vector<PeakList>& lists) {
@@ -351,8 +326,7 @@ std::vector<PairScreening> screen_by_height_maps(const std::vector<const Cloud*>
   return out;
 }
 
-std::vector<std::vector<PoseCandidate>> correlate_height_maps(const std::vector<const Cloud*>& scans,
-                                                              const std::vector<ScanPair>& pairs,
+std::vector<std::vector<PoseCandidate>> correlate_height_maps(ScansFromAbove& scans, const std::vector<ScanPair>& pairs,
                                                               const HeightCorrelationOptions& options,
                                                               int num_threads) {
   std::vector<std::vector<PoseCandidate>> out(pairs.size());

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <map>
 #include <tuple>
+#include <utility>
 
 #include "links/pair_steps.hpp"
 
@@ -13,34 +14,40 @@ namespace {
 // Pairs whose height maps are compared together: they share transforms; what is cut off is done again.
 constexpr std::size_t kBlock = 100;
 
+ScansFromAbove from_above(const std::vector<PreparedScan>& scans, bool levelled) {
+  std::vector<const Cloud*> clouds;
+  for (const auto& scan : scans) clouds.push_back(&scan.fine.cloud);
+  VerticalOptions vertical;
+  vertical.levelled = levelled;
+  return ScansFromAbove(std::move(clouds), vertical);
+}
+
+HeightCorrelationOptions screening_on(const CorrelationGrid& grid) {
+  HeightCorrelationOptions options = screening_options();
+  options.grid = grid;
+  return options;
+}
+
+HeightCorrelationOptions full_on(const CorrelationGrid& grid) {
+  HeightCorrelationOptions options;
+  options.grid = grid;
+  return options;
+}
+
 }  // namespace
 
 HeightMapSearch::HeightMapSearch(const std::vector<PreparedScan>& scans, bool levelled, const RunContext& context,
                                  const KeptSearches& kept)
-    : scans_(scans), levelled_(levelled), context_(context), kept_(kept) {}
-
-HeightCorrelationOptions HeightMapSearch::screening_on(const CorrelationGrid& grid) const {
-  HeightCorrelationOptions options = screening_options();
-  options.vertical.levelled = levelled_;
-  options.grid = grid;
-  return options;
-}
-
-HeightCorrelationOptions HeightMapSearch::full_on(const CorrelationGrid& grid) const {
-  HeightCorrelationOptions options;
-  options.vertical.levelled = levelled_;
-  options.grid = grid;
-  return options;
-}
+    : scans_(scans), from_above_(from_above(scans, levelled)), context_(context), kept_(kept) {}
 
 std::vector<HeightMapGrids> HeightMapSearch::grids_of(const ScanPairs& pairs) {
   if (of_scans_.empty()) {
     const auto of_scans = [&](const HeightCorrelationOptions& options) {
-      if (kept_.store != nullptr) return grids_once(*kept_.store, scans_, kept_.base, options, context_.num_threads);
-      std::vector<const Cloud*> clouds;
-      for (const auto& scan : scans_) clouds.push_back(&scan.fine.cloud);
+      if (kept_.store != nullptr) {
+        return grids_once(*kept_.store, digests_of(scans_), kept_.base, from_above_, options, context_.num_threads);
+      }
       return std::vector<CorrelationGrid>(scans_.size(),
-                                          choose_correlation_grid(clouds, options, context_.num_threads));
+                                          choose_correlation_grid(from_above_, options, context_.num_threads));
     };
     const auto screening = of_scans(screening_on({})), full = of_scans(full_on({}));
     for (std::size_t i = 0; i < scans_.size(); ++i) of_scans_.push_back({screening[i], full[i]});
@@ -57,8 +64,8 @@ std::vector<std::vector<PoseCandidate>> HeightMapSearch::candidates(const ScanPa
                                                                     const std::vector<HeightMapGrids>& grids) {
   std::vector<std::vector<PoseCandidate>> out(pairs.size());
   const auto key = [&](std::size_t k) {
-    return height_map_key(scans_[pairs[k].first], scans_[pairs[k].second], screening_on(grids[k].screening),
-                          full_on(grids[k].full));
+    return height_map_key(scans_[pairs[k].first], scans_[pairs[k].second], from_above_.vertical(),
+                          screening_on(grids[k].screening), full_on(grids[k].full));
   };
   std::map<std::tuple<double, int, double, int>, std::vector<std::size_t>> missing;  // by grids
   for (std::size_t k = 0; k < pairs.size(); ++k) {
@@ -106,7 +113,7 @@ std::vector<std::vector<PoseCandidate>> HeightMapSearch::search(const ScanPairs&
   screen(pairs, grids.screening);
   std::vector<ScanPair> wanted;
   for (const auto& pair : pairs) wanted.push_back({pair.first, pair.second, screened_.at(pair).ups});
-  return correlate_height_maps(clouds(), wanted, full_on(grids.full), context_.num_threads);
+  return correlate_height_maps(from_above_, wanted, full_on(grids.full), context_.num_threads);
 }
 
 // What was not screened yet.
@@ -115,16 +122,10 @@ void HeightMapSearch::screen(const ScanPairs& pairs, const CorrelationGrid& grid
   for (const auto& pair : pairs) {
     if (!screened_.contains(pair)) open.push_back({pair.first, pair.second});
   }
-  auto found = screen_by_height_maps(clouds(), open, screening_on(grid), context_.num_threads);
+  auto found = screen_by_height_maps(from_above_, open, screening_on(grid), context_.num_threads);
   for (std::size_t k = 0; k < open.size(); ++k) {
     screened_.emplace(ScanPairs::value_type(open[k].target, open[k].source), std::move(found[k]));
   }
-}
-
-std::vector<const Cloud*> HeightMapSearch::clouds() const {
-  std::vector<const Cloud*> out;
-  for (const auto& scan : scans_) out.push_back(&scan.fine.cloud);
-  return out;
 }
 
 }  // namespace tcm_icp

@@ -43,12 +43,9 @@ class HeightMapSearch {
  private:
   std::vector<std::vector<PoseCandidate>> search(const ScanPairs& pairs, const HeightMapGrids& grids);
   void screen(const ScanPairs& pairs, const CorrelationGrid& grid);
-  std::vector<const Cloud*> clouds() const;
-  HeightCorrelationOptions screening_on(const CorrelationGrid& grid) const;
-  HeightCorrelationOptions full_on(const CorrelationGrid& grid) const;
 
   const std::vector<PreparedScan>& scans_;
-  bool levelled_;
+  ScansFromAbove from_above_;
   const RunContext& context_;
   const KeptSearches& kept_;
   std::vector<HeightMapGrids> of_scans_;                     // once they are asked for

@@ -56,8 +56,8 @@ void transfer(Record& record, T& value) {
 
 template <typename Record, MaybeConst<HeightCorrelationOptions> T>
 void transfer(Record& record, T& value) {
-  auto& [cells_across, max_grid, heading_step_deg, min_shared_share, max_candidates, vertical, map, grid] = value;
-  record(cells_across, max_grid, heading_step_deg, min_shared_share, max_candidates, vertical, map, grid);
+  auto& [cells_across, max_grid, heading_step_deg, min_shared_share, max_candidates, map, grid] = value;
+  record(cells_across, max_grid, heading_step_deg, min_shared_share, max_candidates, map, grid);
 }
 
 namespace {
@@ -70,12 +70,6 @@ bool are_alike(const CorrelationGrid& a, const CorrelationGrid& b) {
 }
 
 double width_m(const CorrelationGrid& grid) { return grid.cell_m * grid.size; }
-
-std::vector<const Cloud*> clouds_of(const std::vector<PreparedScan>& scans) {
-  std::vector<const Cloud*> out;
-  for (const auto& scan : scans) out.push_back(&scan.fine.cloud);
-  return out;
-}
 
 /// What a fit adds to the candidate it starts from.
 struct Fit {
@@ -91,9 +85,9 @@ void transfer(Record& record, T& value) {
 
 }  // namespace
 
-StepKey height_map_key(const PreparedScan& target, const PreparedScan& source,
+StepKey height_map_key(const PreparedScan& target, const PreparedScan& source, const VerticalOptions& vertical,
                        const HeightCorrelationOptions& screening, const HeightCorrelationOptions& full) {
-  return step_key("height-maps", target.digest, source.digest, screening, full);
+  return step_key("height-maps", target.digest, source.digest, vertical, screening, full);
 }
 
 StepKey ranking_key(const PreparedScan& target, const PreparedScan& source, const LinkSearchOptions& options) {
@@ -137,14 +131,15 @@ const CorrelationGrid& grid_of_pair(const CorrelationGrid& a, const CorrelationG
   return width_m(a) != width_m(b) ? (width_m(a) > width_m(b) ? a : b) : (a.cell_m >= b.cell_m ? a : b);
 }
 
-std::vector<CorrelationGrid> grids_once(const StepStore& store, const std::vector<PreparedScan>& scans,
-                                        const std::vector<std::string>& base, const HeightCorrelationOptions& options,
-                                        int num_threads) {
+std::vector<CorrelationGrid> grids_once(const StepStore& store, const std::vector<std::string>& digests,
+                                        const std::vector<std::string>& base, ScansFromAbove& scans,
+                                        const HeightCorrelationOptions& options, int num_threads) {
   using Grids = std::vector<CorrelationGrid>;
-  const std::vector<std::string> digests = digests_of(scans);
-  const auto key = [&](const std::vector<std::string>& set) { return step_key("grids", set, options); };
+  const auto key = [&](const std::vector<std::string>& set) {
+    return step_key("grids", set, scans.vertical(), options);
+  };
   return do_once<Grids>(store, key(digests), [&] {
-    const CorrelationGrid own = choose_correlation_grid(clouds_of(scans), options, num_threads);
+    const CorrelationGrid own = choose_correlation_grid(scans, options, num_threads);
     const auto kept = base.empty() ? std::nullopt : find_step<Grids>(store, key(base));
     if (!kept || kept->size() != base.size() ||
         !std::all_of(kept->begin(), kept->end(), [&](const CorrelationGrid& g) { return are_alike(g, own); })) {

@@ -16,7 +16,7 @@
 namespace tcm_icp {
 
 /// The key of a pair's search by height maps.
-StepKey height_map_key(const PreparedScan& target, const PreparedScan& source,
+StepKey height_map_key(const PreparedScan& target, const PreparedScan& source, const VerticalOptions& vertical,
                        const HeightCorrelationOptions& screening, const HeightCorrelationOptions& full);
 /// Of the alignment that ranks a scan's partners.
 StepKey ranking_key(const PreparedScan& target, const PreparedScan& source, const LinkSearchOptions& options);
@@ -35,9 +35,10 @@ std::vector<PoseCandidate> candidates_once(const StepStore& store, const StepKey
 
 /// For each scan of a set the grid that it is compared on with those that came no later: choose_correlation_grid() of
 /// the set; for scans of the set with the digests `base` what they had there, as long as cells are about as large.
-std::vector<CorrelationGrid> grids_once(const StepStore& store, const std::vector<PreparedScan>& scans,
-                                        const std::vector<std::string>& base, const HeightCorrelationOptions& options,
-                                        int num_threads);
+/// @param digests  of the scans
+std::vector<CorrelationGrid> grids_once(const StepStore& store, const std::vector<std::string>& digests,
+                                        const std::vector<std::string>& base, ScansFromAbove& scans,
+                                        const HeightCorrelationOptions& options, int num_threads);
 
 /// That of the scan that came later: it holds both.
 const CorrelationGrid& grid_of_pair(const CorrelationGrid& a, const CorrelationGrid& b);

@@ -6,7 +6,7 @@
 
 #include "tcm_icp/coarse/height_map.hpp"
 #include "tcm_icp/coarse/pose_candidate.hpp"
-#include "tcm_icp/coarse/vertical.hpp"
+#include "tcm_icp/coarse/scans_from_above.hpp"
 
 namespace tcm_icp {
 
@@ -22,7 +22,6 @@ struct HeightCorrelationOptions {
   double heading_step_deg = 5;     ///< > 0, <= 15; rounded so that a quarter turn is a whole number of steps
   double min_shared_share = 0.05;  ///< 0..1; shared cells by the cells of the smaller scan
   int max_candidates = 5;          ///< >= 1; per pair
-  VerticalOptions vertical;
   HeightMapOptions map;
   CorrelationGrid grid;   ///< choose_correlation_grid() of a set that the scans belong to, or nothing
   void validate() const;  ///< throws InvalidOptions
@@ -43,19 +42,17 @@ struct ScanPair {
 
 /// The grid that the functions below take for these scans: all pairs of a set have one, also where some of them are
 /// looked at alone. @throws InvalidInput  as they do
-CorrelationGrid choose_correlation_grid(const std::vector<const Cloud*>& scans, const HeightCorrelationOptions& options,
+CorrelationGrid choose_correlation_grid(ScansFromAbove& scans, const HeightCorrelationOptions& options,
                                         int num_threads);
 
 /// For each pair up to max_candidates clearly different poses, the best score first. Score: mean of the normalised
 /// correlations of heights and of walls over the shared cells, by the root of twice their number; a pose by chance has
 /// about 10. The best pose's margin is against the second, the others' against the best.
 ///
-/// @param scans  one cloud for each scan, evenly sampled, each in its own frame; normals sharpen the result
 /// @throws InvalidInput  if a cloud has fewer than 3 points, all are equal, or a pair is out of range
 /// Cost: 72 inverse transforms a pair, 20 to 60 ms of processor time; memory for nine spectra a scan. The result does
 /// not depend on the number of threads.
-std::vector<std::vector<PoseCandidate>> correlate_height_maps(const std::vector<const Cloud*>& scans,
-                                                              const std::vector<ScanPair>& pairs,
+std::vector<std::vector<PoseCandidate>> correlate_height_maps(ScansFromAbove& scans, const std::vector<ScanPair>& pairs,
                                                               const HeightCorrelationOptions& options, int num_threads);
 
 /// The same search on coarse maps, with as little as it takes to tell pairs worth a full search: cells and headings are
@@ -79,8 +76,7 @@ struct PairScreening {
 /// @throws InvalidInput  as above
 /// Cost: with screening_options() 36 inverse transforms a pair, about 1 ms of processor time, for each of the ways that
 /// both may be up.
-std::vector<PairScreening> screen_by_height_maps(const std::vector<const Cloud*>& scans,
-                                                 const std::vector<ScanPair>& pairs,
+std::vector<PairScreening> screen_by_height_maps(ScansFromAbove& scans, const std::vector<ScanPair>& pairs,
                                                  const HeightCorrelationOptions& options, int num_threads);
 
 }  // namespace tcm_icp
