@@ -40,9 +40,11 @@ class TcmOrderTest : public ::testing::Test {
   }
   std::vector<TcmTerms> robust_terms() const {
     std::vector<TcmTerms> terms;
-    const RobustTcmCloud s(cloud_->level(1).cloud.points);
+    const std::size_t level = options_.fits ? 1 : 2;
+    const RobustTcmCloud s(cloud_->level(level).cloud.points);
     for (const auto& c : choices_) {
-      terms.push_back(robust_tcm_terms(s, RobustTcmCloud(s_.scans[c.scan].tcm_points), c.T_reference_scan));
+      const RobustTcmCloud scan(s_.scans[c.scan].pyramid.level(level).cloud.points);
+      terms.push_back(robust_tcm_terms(s, scan, c.T_reference_scan));
     }
     return terms;
   }
@@ -70,6 +72,15 @@ class TcmOrderTest : public ::testing::Test {
   RunContext context_;
   Found found_;
 };
+
+TEST_F(TcmOrderTest, WithoutFitsACoarserLevelTells) {
+  const std::vector<TcmTerms> fine = robust_terms();
+  options_.fits = false;
+  const std::vector<TcmTerms> coarse = robust_terms();
+  ASSERT_NE(fine[0].tau(), coarse[0].tau());
+  EXPECT_EQ(next(MergeOrder::kTcm), choices_[least(coarse)].scan);
+  EXPECT_EQ(found_.terms.tau(), coarse[least(coarse)].tau());
+}
 
 TEST_F(TcmOrderTest, TheLeastTauIsNext) {
   const auto terms = robust_terms();

@@ -19,7 +19,7 @@ bool uses_paper_tcm(const MergeOptions& options) {
 TcmOrder::TcmOrder(const std::vector<PreparedScan>& scans, const MergeOptions& options, const RunContext& context)
     : scans_(scans), options_(options), context_(context) {}
 
-std::size_t TcmOrder::level() const { return uses_paper_tcm(options_) ? 0 : 1; }
+std::size_t TcmOrder::level() const { return uses_paper_tcm(options_) ? 0 : options_.fits ? 1 : 2; }
 
 std::vector<MergeMeasure> TcmOrder::measure(const PyramidLevel& s, const std::vector<MergeChoice>& choices) const {
   std::vector<MergeMeasure> out(choices.size());
@@ -47,7 +47,8 @@ std::vector<MergeMeasure> TcmOrder::measure(const PyramidLevel& s, const std::ve
 }
 
 TcmTerms TcmOrder::terms(const RobustTcmCloud& s, const MergeChoice& choice) const {
-  return robust_tcm_terms(s, RobustTcmCloud(scans_[choice.scan].tcm_points, options_.tcm), choice.T_reference_scan);
+  const Points& points = scans_[choice.scan].pyramid.level(level()).cloud.points;
+  return robust_tcm_terms(s, RobustTcmCloud(points, options_.tcm), choice.T_reference_scan);
 }
 
 std::size_t TcmOrder::next(const std::vector<MergeChoice>& choices, const std::vector<MergeMeasure>& measures) {

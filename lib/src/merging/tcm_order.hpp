@@ -31,7 +31,8 @@ class TcmOrder {
   /// Keeps references: all three must outlive it.
   TcmOrder(const std::vector<PreparedScan>& scans, const MergeOptions& options, const RunContext& context);
 
-  /// The pyramid's level of S that choices are measured at.
+  /// The pyramid's level of S that choices are measured at. Where nothing is fitted to S the order moves no pose, and
+  /// is worth no more than a coarse one costs: S is put together and indexed anew for every scan that may be next.
   std::size_t level() const;
 
   /// Of choices against S at level(). Thread-safe.

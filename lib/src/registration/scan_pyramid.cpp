@@ -10,9 +10,42 @@
 namespace tcm_icp {
 namespace {
 
-constexpr int kSearchedHalvings = 4;  // beyond the first size that may be enough: scans are surfaces, not solids
-constexpr int kMaxHalvings = 40;      // 1e-12 of the diagonal
-constexpr double kCellVoxels = 5;     // of the index: distances that are asked of a level are up to that
+constexpr int kSearchedHalvings = 4;   // beyond the first size that may be enough: scans are surfaces, not solids
+constexpr int kMaxHalvings = 40;       // 1e-12 of the diagonal
+constexpr int kSteps = 16;             // between two of them
+constexpr std::size_t kCountedTo = 4;  // times what is wanted: an octave has about four times the voxels
+constexpr double kCellVoxels = 5;      // of the index: distances that are asked of a level are up to that
+
+// The least number in (below, enough] for which is_enough holds, which it does from there on. Asks for `guess` and its
+// neighbours first.
+template <typename IsEnough>
+int first_enough(int below, int enough, int guess, IsEnough is_enough) {
+  for (int asked = 0; enough - below > 1; ++asked) {
+    if (asked > 1 || guess <= below || guess >= enough) guess = below + (enough - below) / 2;
+    if (is_enough(guess)) {
+      enough = guess--;
+    } else {
+      below = guess++;
+    }
+  }
+  return enough;
+}
+
+// The edge so many sixteenths of an octave below `coarse_m`.
+double edge_at(double coarse_m, int step) {
+  double fine_m = coarse_m / 2;
+  for (int below = 0, width = kSteps; width > 1;) {
+    width /= 2;
+    const double middle_m = std::sqrt(coarse_m * fine_m);
+    if (step <= below + width) {
+      fine_m = middle_m;
+    } else {
+      coarse_m = middle_m;
+      below += width;
+    }
+  }
+  return fine_m;
+}
 
 }  // namespace
 
@@ -44,26 +77,38 @@ double voxel_size_for(const Points& points, std::size_t num_voxels) {
   const double diagonal = (high - low).norm();
   if (!(diagonal > 0)) throw InvalidInput("all points of a cloud are equal: no voxel size can be derived");
   const std::size_t wanted = std::min(num_voxels, points.size() / 2);
-  const auto enough = [&](double size) { return count_voxels(points, size, wanted) >= wanted; };
+  const auto ratio = [&](std::size_t count) { return static_cast<double>(count) / static_cast<double>(wanted); };
   // Voxels of a 2^n-th of the diagonal: at most 2^n + 1 of them an axis, so the first sizes cannot be enough.
   int least = 0;
   for (double most = 2; most * most * most < static_cast<double>(wanted); most = 2 * most - 1) ++least;
-  // A count ends where it is enough: those of small voxels soon, those of large ones after all points. Such voxels
-  // nest, so that the answer does not depend on where the search begins.
-  int halvings = least + kSearchedHalvings;
-  if (enough(std::ldexp(diagonal, -halvings))) {
-    while (halvings > least && enough(std::ldexp(diagonal, 1 - halvings))) --halvings;
-  } else {
-    do {
-      ++halvings;
-    } while (halvings < kMaxHalvings && !enough(std::ldexp(diagonal, -halvings)));
+
+  // Such voxels nest, so that the answer does not depend on where the search begins. Each count tells where to go on.
+  int below = least - 1, enough = kMaxHalvings;
+  std::size_t count_below = 0, count_enough = 0;
+  for (int halvings = least + kSearchedHalvings; enough - below > 1;) {
+    const std::size_t count = count_voxels(points, std::ldexp(diagonal, -halvings), kCountedTo * wanted);
+    const int octaves = count > 0 && wanted > 0 ? static_cast<int>(std::abs(std::log2(ratio(count))) / 2) : 0;
+    if (count >= wanted) {
+      enough = halvings;
+      count_enough = count;
+      halvings -= std::max(octaves, 1);
+    } else {
+      below = halvings;
+      count_below = count;
+      halvings += octaves + 1;
+    }
+    halvings = std::clamp(halvings, below + 1, std::max(enough - 1, below + 1));
   }
-  double fine = std::ldexp(diagonal, -halvings), coarse = halvings > 0 ? 2 * fine : fine;
-  for (int i = 0; i < 4; ++i) {
-    const double middle = std::sqrt(coarse * fine);
-    (enough(middle) ? fine : coarse) = middle;
+  if (enough == 0) return diagonal;
+  const double coarse_m = std::ldexp(diagonal, 1 - enough);
+  int guess = kSteps / 2;
+  if (count_below > 0 && count_enough > 0) {
+    const double octave = std::log2(ratio(count_enough) / ratio(count_below));
+    guess = static_cast<int>(std::ceil(-kSteps * std::log2(ratio(count_below)) / octave));
   }
-  return fine;
+  const int step = first_enough(0, kSteps, guess,
+                                [&](int k) { return count_voxels(points, edge_at(coarse_m, k), wanted) >= wanted; });
+  return edge_at(coarse_m, step);
 }
 
 }  // namespace tcm_icp

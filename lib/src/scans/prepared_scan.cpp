@@ -74,8 +74,11 @@ Resolutions choose_resolutions(const std::vector<SampledScan>& scans, const Samp
   std::vector<double> coarse(scans.size()), fine(scans.size());
   parallel_for(num_threads, scans.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      coarse[i] = voxel_size_for(scans[i].scan.cloud.points, options.coarse_voxels);
-      fine[i] = voxel_size_for(scans[i].scan.cloud.points, options.fine_voxels);
+      const Points& points = scans[i].scan.cloud.points;
+      coarse[i] = voxel_size_for(points, options.coarse_voxels);
+      // With fewer points both are as fine as those allow.
+      const bool is_same = points.size() / 2 <= options.coarse_voxels;
+      fine[i] = is_same ? coarse[i] : voxel_size_for(points, options.fine_voxels);
     }
   });
   std::vector<double> coverage, noise;

@@ -41,8 +41,8 @@ class ScanPyramid {
 };
 
 /// Voxel edge [m] at which the points occupy about `num_voxels` voxels, or half as many as there are points where that
-/// is fewer. Measured by bisection on the edge's logarithm, because the spacing along a scan line says little about the
-/// area a scan covers. O(N) a step, about ten steps.
+/// is fewer, to a sixteenth of an octave. Voxels are counted, because the spacing along a scan line says little about
+/// the area a scan covers. O(N) a count, about five counts.
 /// @throws InvalidInput  if all points are equal
 double voxel_size_for(const Points& points, std::size_t num_voxels);
 
