@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
+#include <vector>
 
 #include "registration/link_scores.hpp"
 #include "registration/match_blocks.hpp"
@@ -83,19 +85,27 @@ ScoreSandwich::ScoreSandwich(const std::vector<TwistFrame>& frames, std::size_t 
 ScoreScatter ScoreSandwich::scatter(double block_m) const {
   BlockSums sums;
   std::map<std::size_t, double> counts;
+  std::vector<Twist> score(frames_.size(), Twist::Zero());
+  std::vector<std::size_t> scans;  // of the block
+  const auto add = [&](std::size_t scan, const Twist& part) {
+    if (scan == fixed_) return;
+    if (std::find(scans.begin(), scans.end(), scan) == scans.end()) scans.push_back(scan);
+    score[scan] += part;
+  };
   for (const auto& block : blocks_of(links_, block_m)) {
-    std::map<std::size_t, Twist> score;
     for (const auto& [l, m] : block) {
       const JointLink& link = links_[l];
       const Correspondence& match = link.matches[m];
       const double r = std::clamp(residual_m(match), -kHuberFactor * noise_m_, kHuberFactor * noise_m_);
-      add(link.source, r * residual_gradient(match, frames_[link.source]), score);
-      add(link.target, -r * residual_gradient(match, frames_[link.target]), score);
+      add(link.source, r * residual_gradient(match, frames_[link.source]));
+      add(link.target, -r * residual_gradient(match, frames_[link.target]));
     }
-    for (const auto& [a, score_a] : score) {
+    for (const std::size_t a : scans) {
       ++counts[a];
-      for (const auto& [b, score_b] : score) sums.at(a, b) += score_a * score_b.transpose();
+      for (const std::size_t b : scans) sums.at(a, b) += score[a] * score[b].transpose();
     }
+    for (const std::size_t scan : scans) score[scan].setZero();
+    scans.clear();
   }
   return {sums.matrix(size(), 0), typical(counts)};
 }
@@ -144,10 +154,6 @@ Eigen::MatrixXd ScoreSandwich::inverse_columns(std::size_t scan) const {
   Eigen::MatrixXd unit = Eigen::MatrixXd::Zero(size(), 6);
   unit.middleRows<6>(static_cast<Eigen::Index>(6 * scan)).setIdentity();
   return factors_.solve(unit);
-}
-
-void ScoreSandwich::add(std::size_t scan, const Twist& part, std::map<std::size_t, Twist>& score) const {
-  if (scan != fixed_) score.try_emplace(scan, Twist::Zero()).first->second += part;
 }
 
 }  // namespace tcm_icp

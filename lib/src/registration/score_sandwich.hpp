@@ -5,7 +5,6 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
-#include <map>
 #include <vector>
 
 #include "registration/joint_normal_equations.hpp"
@@ -43,7 +42,6 @@ class ScoreSandwich {
  private:
   /// Columns of the inverse that belong to a scan, 6 n x 6.
   Eigen::MatrixXd inverse_columns(std::size_t scan) const;
-  void add(std::size_t scan, const Twist& part, std::map<std::size_t, Twist>& score) const;
   Eigen::Index size() const { return static_cast<Eigen::Index>(6 * frames_.size()); }
 
   const std::vector<TwistFrame>& frames_;
