@@ -85,10 +85,7 @@ def make_variant(plain, variant, seed, other, folder):
         k = int(rng.integers(len(scans)))
         scans[k] = (scans[k][0] * [-1, 1, 1], scans[k][1], 1)
     elif variant == "stranger":
-        strange = json.loads((other / "truth.json").read_text())["scans"]
-        for k in range(2):
-            p = read_points(other / strange[int(rng.integers(len(strange)))]["file"])
-            scans.append((p * (_extent(scans[0][0]) / _extent(p)), scans[0][1], k + 1))
+        scans += _strangers(other, _extent(scans[0][0]), rng)
     elif variant == "clutter":
         scans = [(_cluttered(p, rng), pose, g) for p, pose, g in scans]
     elif variant == "passers":
@@ -98,6 +95,20 @@ def make_variant(plain, variant, seed, other, folder):
         size = int(rng.integers(2, min(4, len(scans) - 1) + 1))
         scans = [scans[i] for i in sorted(rng.permutation(len(scans))[:size])]
     _emit(folder, scans, truth)
+
+
+def _strangers(other, extent, rng):
+    """Two scans of another set, made as large as `extent`: they may belong together, and then it is known how."""
+    truth = json.loads((other / "truth.json").read_text())["scans"]
+    pair = [truth[i] for i in rng.permutation(len(truth))[:2]]
+    points = [read_points(other / s["file"]) for s in pair]
+    scale = extent / _extent(points[0])
+    out = []
+    for p, s in zip(points, pair):
+        pose = np.array(s["pose"], float)
+        pose[:3, 3] *= scale
+        out.append((p * scale, pose.tolist(), 1))
+    return out
 
 
 def _with_passers(points, pose, scanner, rng):
