@@ -29,7 +29,10 @@ except ImportError:
 from calibration import labels, logistic, sets, softmin
 
 ROOT = Path(__file__).resolve().parent.parent
-PLACE, SIGNS = (0, 1, 14, 15), (1, 1, 1, 1, 1, -1, -1, -1, -1, 0, -1, -1, 1, -1, 1, 1)
+# Of decisions: what tells a place from another; what more of speaks for a scan, and what against it.
+PLACE = ("lead", "log_lead", "log_lead_a_pair", "lead_by_set")
+FOR = PLACE + ("log_overlap", "log_inlier_share", "inliers_by_set", "few_agree")
+AGAINST = ("residual_by_set", "weakest_left", "mean_left", "left_across", "violations", "opposed", "sigma")
 RIDGE = 2.0
 SPREAD = 0.5  # of sets' own constants in log-odds; of 0, 0.5, 1 and 2 best where each run then learns its own
 
@@ -115,10 +118,13 @@ def fit_links(options, folder, results):
 
 def fit_scans(options, folder, results):
     X, y, scene, name_of_set = labels.load(folder, results, "scans")
-    quality = [k for k in range(X.shape[1]) if k not in PLACE]
+    names = names_of("decision/scan_decision.hpp", "kDecisionFeatureNames")
+    place = [names.index(name) for name in PLACE]
+    quality = [k for k in range(len(names)) if k not in place]
+    signs = [(name in FOR) - (name in AGAINST) for name in names]
 
     def model():
-        return softmin.TwoWays(PLACE, quality, SIGNS, RIDGE)
+        return softmin.TwoWays(place, quality, signs, RIDGE)
 
     whole = model().fit(X, y)
     text = head(options, f"{len(y)} decisions ({int(y.sum())} right)") + (
