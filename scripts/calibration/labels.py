@@ -74,8 +74,8 @@ def hypotheses(data, scene, name, rows):
             rows.add(h["features"], right, scene, name)
 
 
-def decisions(data, scene, name, rows, slack=1.5):
-    """A scan is right within the tolerance of where the reference says (times `slack`, for what the reference itself is
+def decisions(data, scene, name, rows, slack=1.5, taken=lambda decision: decision["features"]):
+    """`taken` of each decision. A scan is right within the tolerance of where the reference says (times `slack`, for what the reference itself is
     off by). Where that makes the reference the only right one, it is the wrong one."""
     poses = json.loads((data.folder_of_result / "poses.json").read_text())
     components = {}
@@ -92,7 +92,11 @@ def decisions(data, scene, name, rows, slack=1.5):
         if sum(labels) == 1:
             labels = [False] * len(members)
         for (_, _, decision), right in zip(members, labels):
-            rows.add(decision["features"], right, scene, name)
+            rows.add(taken(decision), right, scene, name)
+
+
+def probabilities(data, scene, name, rows):
+    decisions(data, scene, name, rows, taken=lambda decision: [decision["probability"]])
 
 
 def _right_beside(data, frame, members, slack):
@@ -106,6 +110,7 @@ def _right_beside(data, frame, members, slack):
 
 
 def load(root, results, what, match=lambda name: True):
+    """Rows of all sets; `what` is hypotheses(), decisions() or probabilities()."""
     rows = Rows()
     for folder in sorted(root.iterdir()):
         result = results / folder.name
@@ -114,5 +119,5 @@ def load(root, results, what, match=lambda name: True):
         data = Set(folder, result)
         data.folder_of_result = result
         scene = folder.name.split("-")[1] if "-" in folder.name else folder.name
-        (hypotheses if what == "links" else decisions)(data, scene, folder.name, rows)
+        what(data, scene, folder.name, rows)
     return rows.arrays()

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
+#include <cmath>
+
 #include "support/random_points.hpp"
 #include "support/synthetic_scene.hpp"
 #include "tcm_icp/core/error.hpp"
@@ -53,6 +56,35 @@ TEST(VoxelSizeFor, FindsAboutTheWantedNumberOfVoxels) {
     const std::size_t found = count_voxels(points, voxel_size_for(points, wanted));
     EXPECT_GE(found, wanted);
     EXPECT_LE(found, 2 * wanted);
+  }
+}
+
+// Halved until there are enough, and then by bisection of the logarithm, to a sixteenth of an octave.
+double voxel_size_by_bisection(const Points& points, std::size_t wanted) {
+  Eigen::AlignedBox3d box;
+  for (const auto& p : points) box.extend(p);
+  const auto enough = [&](double size) { return count_voxels(points, size) >= wanted; };
+  double fine = box.diagonal().norm();
+  while (!enough(fine)) fine /= 2;
+  double coarse = 2 * fine;
+  for (int i = 0; i < 4; ++i) {
+    const double middle = std::sqrt(coarse * fine);
+    (enough(middle) ? fine : coarse) = middle;
+  }
+  return fine;
+}
+
+TEST(VoxelSizeFor, IsWhatBisectionFinds) {
+  Rng rng = make_stream(6, "test");
+  Points line, solid;
+  for (int i = 0; i < 3000; ++i) {
+    line.emplace_back(i + uniform01(rng), 0, 0);
+    solid.emplace_back(uniform01(rng), uniform01(rng), uniform01(rng));
+  }
+  for (const Points& points : {yard(6).points, yard(7).points, line, solid}) {
+    for (const std::size_t wanted : {std::size_t{10}, std::size_t{100}, std::size_t{700}, points.size() / 2}) {
+      EXPECT_DOUBLE_EQ(voxel_size_for(points, wanted), voxel_size_by_bisection(points, wanted)) << wanted;
+    }
   }
 }
 

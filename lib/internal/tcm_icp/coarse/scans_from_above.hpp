@@ -14,9 +14,8 @@ namespace tcm_icp {
 /// Found when it is asked for, and kept: every search of a set's pairs asks for it.
 class ScansFromAbove {
  public:
-  /// @param clouds  one for each scan, evenly sampled, each in its own frame, and outliving this; normals sharpen what
-  /// is
-  ///                found
+  /// @param clouds  one for each scan, which must outlive this: evenly sampled, each in its own frame; normals sharpen
+  ///                what is found
   explicit ScansFromAbove(std::vector<const Cloud*> clouds, const VerticalOptions& vertical = {});
 
   std::size_t size() const { return clouds_.size(); }
