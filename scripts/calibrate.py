@@ -29,6 +29,7 @@ except ImportError:
     sys.exit("calibrate.py: numpy is missing: apt install python3-numpy, and run it with /usr/bin/python3")
 
 from calibration import labels, logistic, sets, softmin
+from paper.provenance import add_tables, origin
 
 ROOT = Path(__file__).resolve().parent.parent
 # Of decisions: what tells a place from another; what more of speaks for a scan, and what against it.
@@ -150,6 +151,7 @@ def check(options, folder, results):
         rows.append((least, int(passes.sum()), right, int(passes.sum()) - right, round(100 * right / y.sum(), 1)))
     with open(ROOT / "docs/results/decisions-unseen.csv", "w", newline="") as f:
         csv.writer(f).writerows(rows)
+    add_tables(ROOT / "docs/results", {"decisions-unseen": origin(options.exe)})
     for row in rows:
         print(*row, sep=", ")
     print(f"{len(np.unique(name_of_set))} sets of seeds {options.seeds}: area under the curve "
