@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "merging/merged_cloud.hpp"
@@ -80,6 +81,20 @@ TEST_F(TcmOrderTest, WithoutFitsACoarserLevelTells) {
   ASSERT_NE(fine[0].tau(), coarse[0].tau());
   EXPECT_EQ(next(MergeOrder::kTcm), choices_[least(coarse)].scan);
   EXPECT_EQ(found_.terms.tau(), coarse[least(coarse)].tau());
+}
+
+TEST_F(TcmOrderTest, WhatLiesInOneVoxelIsMergedLast) {
+  options_.fits = false;
+  std::vector<PreparedScan> scans = s_.scans;
+  const std::size_t tiny = next(MergeOrder::kTcm);
+  const Cloud& cloud = scans[tiny].pyramid.level(0).cloud;
+  scans[tiny].pyramid = ScanPyramid({{cloud.points[0]}, {cloud.normals[0]}}, s_.resolutions.coarse_m, 4);
+  TcmOrder order(scans, options_, context_);
+  const auto measures = order.measure(cloud_->level(order.level()), choices_);
+  EXPECT_NE(choices_[order.next(choices_, measures)].scan, tiny);
+
+  const Cloud point{{Eigen::Vector3d::Zero()}, {Eigen::Vector3d::UnitZ()}};
+  for (const MergeMeasure& m : order.measure(PyramidLevel(1, point), choices_)) EXPECT_TRUE(std::isinf(m.terms.tau()));
 }
 
 TEST_F(TcmOrderTest, TheLeastTauIsNext) {

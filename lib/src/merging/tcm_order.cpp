@@ -1,5 +1,6 @@
 #include "merging/tcm_order.hpp"
 
+#include <limits>
 #include <string>
 
 #include "tcm_icp/core/parallel.hpp"
@@ -8,6 +9,9 @@
 
 namespace tcm_icp {
 namespace {
+
+// Of what lies in one voxel: merged last.
+constexpr TcmTerms kTooSmall{std::numeric_limits<double>::infinity(), 1, 1};
 
 bool uses_paper_tcm(const MergeOptions& options) {
   if (options.order == MergeOrder::kPaperTcm) return true;
@@ -33,6 +37,8 @@ std::vector<MergeMeasure> TcmOrder::measure(const PyramidLevel& s, const std::ve
     for_each_choice([&](const MergeChoice& choice, MergeMeasure& m) {
       m.terms = tcm_terms(cloud, TcmCloud(scans_[choice.scan].pyramid.level(0).cloud.points), choice.T_reference_scan);
     });
+  } else if (s.cloud.size() < 2) {
+    for_each_choice([&](const MergeChoice&, MergeMeasure& m) { m.terms = kTooSmall; });
   } else {
     const RobustTcmCloud cloud(s.cloud.points, options_.tcm);
     for_each_choice([&](const MergeChoice& choice, MergeMeasure& m) { m.terms = terms(cloud, choice); });
@@ -48,6 +54,7 @@ std::vector<MergeMeasure> TcmOrder::measure(const PyramidLevel& s, const std::ve
 
 TcmTerms TcmOrder::terms(const RobustTcmCloud& s, const MergeChoice& choice) const {
   const Points& points = scans_[choice.scan].pyramid.level(level()).cloud.points;
+  if (points.size() < 2) return kTooSmall;
   return robust_tcm_terms(s, RobustTcmCloud(points, options_.tcm), choice.T_reference_scan);
 }
 

@@ -49,7 +49,7 @@ Eigen::MatrixXd paper_tcm(const std::vector<PreparedScan>& scans, const std::vec
 Eigen::MatrixXd robust_tcm(const std::vector<PreparedScan>& scans, const std::vector<Eigen::Isometry3d>& T_common_local,
                            const RobustTcmOptions& options, const RunContext& context) {
   std::vector<RobustTcmCloud> clouds;
-  for (const auto& scan : scans) clouds.emplace_back(scan.tcm_points, options);
+  for (const auto& scan : scans) clouds.emplace_back(scan.pyramid.level(1).cloud.points, options);
   return all_pairs(T_common_local, context, [&](std::size_t i, std::size_t j, const Eigen::Isometry3d& T_i_j) {
     return robust_tcm_terms(clouds[i], clouds[j], T_i_j);
   });

@@ -1,5 +1,6 @@
 // Algorithm 1 of the paper, line by line.
 
+#include <algorithm>
 #include <vector>
 
 #include "adjustment/adjustment.hpp"
@@ -71,7 +72,8 @@ void run_paper_pipeline(const PipelineInput& in, PipelineResult& result) {
   merged[reference] = true;
   std::vector<MergeChoice> left;
   for (std::size_t j = 0; j < n; ++j) {
-    const bool comparable = scans[j].tcm_points.size() > 1 && scans[reference].tcm_points.size() > 1;
+    const bool comparable =
+        std::min(scans[j].pyramid.level(1).cloud.size(), scans[reference].pyramid.level(1).cloud.size()) > 1;
     if (j != reference && comparable) left.push_back({j, T_init[reference].inverse() * T_init[j]});
   }
   while (!left.empty()) {  // line 4

@@ -16,7 +16,7 @@ struct MatchId {
 
 /// The matches of all links in one cube of edge `edge_m` make a block, whatever scans they are of, because a surface
 /// that misleads one pair of scans misleads others. In the order of the cubes; within one, in the matches' order.
-/// O(N log N).
+/// O(N), and sorting the cubes.
 std::vector<std::vector<MatchId>> blocks_of(const std::vector<JointLink>& links, double edge_m);
 
 }  // namespace tcm_icp

@@ -104,7 +104,6 @@ PreparedScan prepare_scan(const SampledScan& scan, const Resolutions& resolution
                    {},
                    {},
                    {},
-                   {},
                    {}};
   const std::string key = stream_key(scan.scan);
   out.coarse_sample = draw(voxel_downsample(scan.scan.cloud, resolutions.coarse_m), resolutions.coarse_m,
@@ -114,7 +113,6 @@ PreparedScan prepare_scan(const SampledScan& scan, const Resolutions& resolution
   out.fine_sample = draw(out.fine.cloud, resolutions.fine_m, options.fine_points, seed, "fine points", key);
   out.key = key;
   out.ball = Ball(scan.scan.cloud.points);
-  out.tcm_points = out.pyramid.level(std::min<std::size_t>(1, kNumPyramidLevels - 1)).cloud.points;
   return out;
 }
 

@@ -41,7 +41,6 @@ struct PreparedScan {
   Cloud held_out_sample;  ///< surfaces at the coarse voxel; in no fit
   PointMoments moments;   ///< of held_out_sample
   Cloud fine_sample;      ///< surfaces at the fine voxel, for the adjustment
-  Points tcm_points;      ///< thinned to the pyramid's second level
   std::string key;        ///< of random numbers: stream_key()
   Ball ball;              ///< all its points lie in it
   Sight sight{};          ///< none until make_sights(); groups of scans have none
