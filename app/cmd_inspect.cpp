@@ -115,7 +115,7 @@ int cmd_inspect(const Arguments& arguments) {
 
   catch_interrupts();
   Console console(o.quiet, o.verbose);
-  const RunContext context = run_context(o, console);
+  const RunContext context = run_context(o, paths.size(), console);
   report_left_out(inputs, context);
   report_coordinate_systems(paths, "which results do not keep", context);
   const Inspection inspection = inspect_scans(paths, guess, o.pipeline, context);

@@ -66,7 +66,7 @@ int run_registration(const RegisterOptions& o, std::string_view command, const A
 
   catch_interrupts();
   Console console(o.quiet, o.verbose);
-  const RunContext context = run_context(o, console);
+  const RunContext context = run_context(o, paths.size(), console);
   report_left_out(inputs, context);
   settle_coordinate_system(o, paths, context, survey);
 

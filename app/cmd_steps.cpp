@@ -26,10 +26,11 @@ struct Step {
     if (options.help) print_step_help(name, std::cout);
   }
 
-  void start() {
+  /// @param num_scans  that are in memory together
+  void start(std::size_t num_scans) {
     catch_interrupts();
     console.emplace(options.quiet, options.verbose);
-    context = run_context(options, *console);
+    context = run_context(options, num_scans, *console);
     steps = open_work_folder(options.work, context);
   }
 
@@ -73,7 +74,7 @@ int cmd_sample(const Arguments& arguments) {
   Step step("sample", arguments);
   if (step.options.help) return kSuccess;
   const auto paths = step.find_paths("sample SCAN... --work DIR");
-  step.start();
+  step.start(1);
   for (const auto& path : paths) sample_into(*step.steps, path, step.options.pipeline, step.context);
   step.finish();
   return kSuccess;
@@ -83,7 +84,7 @@ int cmd_plan(const Arguments& arguments) {
   Step step("plan", arguments);
   if (step.options.help) return kSuccess;
   const auto paths = step.find_paths("plan SCAN... --work DIR");
-  step.start();
+  step.start(paths.size());
   const MatchPlan plan = plan_matches(*step.steps, scans_in_files(paths), step.options.pipeline, step.context);
   write_plan(*step.steps, plan);
   step.finish();
@@ -98,7 +99,7 @@ int cmd_match(const Arguments& arguments) {
     throw InvalidOptions("'" + step.options.scans.front() + "': match takes no scans, they are in the plan");
   }
   const Block block = parse_block(step.options.block);
-  step.start();
+  step.start(1);
   match_block(*step.steps, read_plan(*step.steps), block.number, block.of, step.options.pipeline, step.context);
   step.finish();
   return kSuccess;
@@ -112,7 +113,7 @@ int cmd_write(const Arguments& arguments) {
     throw InvalidOptions("--out DIR is missing: where is the result that the poses are in?");
   }
   const PoseFile poses = read_pose_file(fs::path(step.options.out) / "poses.json");
-  step.start();
+  step.start(1);
   OutputOptions clouds = step.options.clouds;
   clouds.crs_text = epsg_text(poses.crs).value_or("");
   bool all_registered = true;

@@ -120,11 +120,11 @@ InitialPoses read_guess(const ScanSetOptions& options, const std::vector<std::fi
   return read_initial_poses(options.initial_poses, scan_names(paths));
 }
 
-RunContext run_context(const ScanSetOptions& options, Console& console) {
+RunContext run_context(const ScanSetOptions& options, std::size_t num_scans, Console& console) {
   RunContext context;
   context.seed = options.seed;
   context.num_threads = num_threads(options.threads);
-  context.memory_limit = memory_bytes(options.memory).value_or(default_memory_limit());
+  context.memory_limit = memory_bytes(options.memory).value_or(default_memory_limit(num_scans));
   context.on_progress = [&console](const Progress& p) { return console.progress(p); };
   context.log = [&console](LogLevel level, std::string_view message) { console.log(level, message); };
   return context;

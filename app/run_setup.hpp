@@ -54,7 +54,7 @@ constexpr std::string_view kFromHeaders = "headers";
 InitialPoses read_guess(const ScanSetOptions& options, const std::vector<std::filesystem::path>& paths);
 
 /// Reports to the console, which must outlive it.
-RunContext run_context(const ScanSetOptions& options, Console& console);
+RunContext run_context(const ScanSetOptions& options, std::size_t num_scans, Console& console);
 
 /// The work folder; nullptr where `folder` is empty. @param context  is told of damaged files; outlives the store
 std::shared_ptr<const StepStore> open_work_folder(const std::string& folder, const RunContext& context);

@@ -16,9 +16,11 @@
 namespace tcm_icp {
 namespace {
 
-constexpr std::chrono::milliseconds kPause{10};
-constexpr std::size_t kPutAwayShare = 2;            // from a half of the limit on
-constexpr std::size_t kLeastReleased = 32UL << 20;  // less is not worth touching all of it again
+constexpr std::chrono::milliseconds kPause{2};
+constexpr std::size_t kPutAwayShare = 8;  // from an eighth of the limit on: the rest is for what must stay, and for work
+// What comes back until the thread is awake again is more than a tenth of a small limit.
+constexpr double kReleaseShare = 0.7;
+constexpr double kLeastReleasedShare = 0.1;  // less is not worth touching all of it again
 
 // Of the budget that is alive; where there are several, of the one made last. Memory is the process's.
 std::atomic<std::size_t> limit_bytes{0};
@@ -44,11 +46,12 @@ struct MemoryBudget::Impl {
   void run() {
     const std::size_t limit = context.memory_limit;
     std::unique_lock lock(mutex);
+    const auto share = [&](double of) { return static_cast<std::size_t>(of * static_cast<double>(limit)); };
     std::size_t after_release = 0;  // what was in memory then cannot leave it
     while (!ended.wait_for(lock, kPause, [&] { return is_over; })) {
       if (paged_bytes() == 0) continue;
       const std::size_t resident = resident_memory();
-      if (resident < limit / 10 * 9 || resident < after_release + kLeastReleased) continue;
+      if (resident < share(kReleaseShare) || resident < after_release + share(kLeastReleasedShare)) continue;
       release_paged_memory();
       malloc_trim(0);
       after_release = resident_memory();

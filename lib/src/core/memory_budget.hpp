@@ -13,8 +13,8 @@
 namespace tcm_icp {
 
 /// While one is alive, what in_budget() copied lies in a file without a name in the folder of TMPDIR, or /var/tmp,
-/// whose pages leave the process where nine tenths of the limit are used. A thread looks after it a hundred times a
-/// second, so that no code has to say what it needs and what not. Results are the same bits with and without.
+/// whose pages leave the process where seven tenths of the limit are used. A thread looks after it every few
+/// milliseconds, so that no code has to say what it needs and what not. Results are the same bits with and without.
 class MemoryBudget {
  public:
   /// @param context  its memory_limit counts, 0 for none; outlives the budget
@@ -29,7 +29,7 @@ class MemoryBudget {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Whether there is a budget, and half of it is used: time to put away what may leave memory. Some microseconds.
+/// Whether there is a budget, and an eighth of it is used: time to put away what may leave memory. Some microseconds.
 bool memory_is_short();
 
 /// The value itself, or where memory is short, a copy whose large arrays may leave it.
