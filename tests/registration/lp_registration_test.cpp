@@ -89,6 +89,20 @@ TEST(RegisterLp, FortyPercentOutliersOnBothSidesDoNotMatter) {
   }
 }
 
+// Matches that change and change back lead round in a circle of poses: without an end to it 5 of these take all 60
+// steps.
+TEST(RegisterLp, EndsWhereItComesBackToAPose) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const Case c = make_case({.noise_m = 0.05}, seed);
+    const ScanPyramid target(c.scene.scans[0], c.scene.spacing_m / 2, 3);
+    LpRegistrationOptions options = gates(c.scene.spacing_m);
+    options.convergence_share = 1e-6;
+    const RegistrationResult result = register_lp(c.scene.scans[1], target, c.start, options);
+    EXPECT_EQ(result.termination, Termination::kConverged) << "seed " << seed << ", " << result.num_iterations;
+    EXPECT_LT(result.num_iterations, options.max_iterations);
+  }
+}
+
 TEST(RegisterLp, UnitsDoNotMatter) {
   const Case c = make_case({.noise_m = 0.02}, 6);
   const RegistrationResult result = run(c);

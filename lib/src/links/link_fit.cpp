@@ -16,7 +16,7 @@ namespace {
 // With 500 points to fit and to measure, another seed moved the log-odds of right pairs over a forest by 1.3 (standard
 // deviation); with 1,500 by 0.55, for 5 % more time.
 constexpr std::size_t kFitPoints = 1500, kScreenPoints = 250;
-constexpr int kMaxLpSolves = 20;  // a fit of a right pose takes ten; others go round in circles
+constexpr int kMaxLpSolves = 20;  // a fit of a right pose takes five to eight
 // Maximum correspondence distances, in coarse voxels.
 constexpr double kFirstDistance = 8, kLastDistance = 2, kDistanceShrink = 0.6;
 

@@ -11,7 +11,7 @@ namespace {
 
 // Maximum correspondence distances, in coarse voxels.
 constexpr double kFirstDistance = 4, kMiddleDistance = 2, kLastDistance = 1.5;
-constexpr int kMaxLpSolves = 20;  // most fits settle within 15; others go round in circles of nearly equal poses
+constexpr int kMaxLpSolves = 20;  // most fits settle within 15
 constexpr std::size_t kMinPoints = 30;
 
 LpRegistrationOptions lp_options(const MergeOptions& options, double first_m, double last_m) {

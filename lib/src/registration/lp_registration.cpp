@@ -78,6 +78,9 @@ RegistrationResult register_lp(const Cloud& source, const ScanPyramid& target, c
   result.T_target_source = T_init;
   result.termination = Termination::kMaxIterations;
   double gate = options.initial_gate_m;
+  const double still_m = options.convergence_share * options.final_gate_m;
+  const PointMoments moments(source.points);
+  std::vector<Eigen::Isometry3d> reached;  // by steps at the final gate
   // The angle closes with the gate: 1 at the initial gate, 0 at the final one, on a logarithmic scale.
   const double log_range = std::log(options.initial_gate_m / options.final_gate_m);
   for (int i = 0; i < options.max_iterations; ++i) {
@@ -102,10 +105,15 @@ RegistrationResult register_lp(const Cloud& source, const ScanPyramid& target, c
       return result;
     }
     ++result.num_iterations;
-    if (final_gate && step_m < options.convergence_share * options.final_gate_m) {
+    // A few matches that change and change back lead round in a circle.
+    const auto is_where = [&](const Eigen::Isometry3d& T) {
+      return rms_displacement(T.inverse() * result.T_target_source, moments) < still_m;
+    };
+    if (final_gate && (step_m < still_m || std::any_of(reached.begin(), reached.end(), is_where))) {
       result.termination = Termination::kConverged;
       return result;
     }
+    if (final_gate) reached.push_back(result.T_target_source);
     gate = std::max(options.final_gate_m, gate * options.gate_shrink);
   }
   return result;

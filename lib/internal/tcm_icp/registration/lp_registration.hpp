@@ -30,8 +30,10 @@ struct LpRegistrationOptions {
   double initial_normal_angle_deg = 60;  ///< [deg] normals may differ by this much at first
   double final_normal_angle_deg = 30;    ///< [deg] and by this much at last
   int max_iterations = 60;               ///< >= 1
-  double convergence_share = 0.002;  ///< stop when a step moves the points less than this share of the final gate (rms)
-  int min_correspondences = 12;      ///< >= 6
+  /// Stop when a step moves the points less than this share of the final gate (rms), or leads as near to a pose that
+  /// one before led to. The gate is two voxels of eight times the noise or more: about what noise leaves open in a fit.
+  double convergence_share = 0.01;
+  int min_correspondences = 12;  ///< >= 6
   L1FitOptions lp;
   void validate() const;  ///< throws InvalidOptions naming field, value and bound
 };
