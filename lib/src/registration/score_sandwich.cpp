@@ -14,21 +14,24 @@
 namespace tcm_icp {
 namespace {
 
-// Sums of 6 x 6 blocks, by the two scans.
+// A symmetric matrix by sums of 6 x 6 blocks, of which one of two that mirror one another is kept.
 class BlockSums {
  public:
+  /// Row at most column.
   Matrix6& at(std::size_t row, std::size_t column) {
     return blocks_.try_emplace({row, column}, Matrix6::Zero()).first->second;
   }
 
   Eigen::SparseMatrix<double> matrix(Eigen::Index size, double diagonal) const {
     std::vector<Eigen::Triplet<double>> entries;
-    entries.reserve(36 * blocks_.size() + static_cast<std::size_t>(size));
+    entries.reserve(72 * blocks_.size() + static_cast<std::size_t>(size));
     for (const auto& [place, block] : blocks_) {
+      const auto [row, column] = place;
       for (int i = 0; i < 6; ++i) {
         for (int j = 0; j < 6; ++j) {
-          entries.emplace_back(static_cast<int>(6 * place.first) + i, static_cast<int>(6 * place.second) + j,
-                               block(i, j));
+          const int a = static_cast<int>(6 * row) + i, b = static_cast<int>(6 * column) + j;
+          entries.emplace_back(a, b, block(i, j));
+          if (row != column) entries.emplace_back(b, a, block(i, j));
         }
       }
     }
@@ -73,8 +76,11 @@ ScoreSandwich::ScoreSandwich(const std::vector<TwistFrame>& frames, std::size_t 
     if (link.source != fixed_) information.at(link.source, link.source) += ss;
     if (link.target != fixed_) information.at(link.target, link.target) += tt;
     if (link.source == fixed_ || link.target == fixed_) continue;
-    information.at(link.source, link.target) += st;
-    information.at(link.target, link.source) += st.transpose();
+    if (link.source < link.target) {
+      information.at(link.source, link.target) += st;
+    } else {
+      information.at(link.target, link.source) += st.transpose();
+    }
   }
   // A billionth of the mean curvature: what the matches do not determine comes out as very uncertain, not as an error.
   const double trace = information.trace();
@@ -87,9 +93,11 @@ ScoreScatter ScoreSandwich::scatter(double block_m) const {
   std::map<std::size_t, double> counts;
   std::vector<Twist> score(frames_.size(), Twist::Zero());
   std::vector<std::size_t> scans;  // of the block
+  std::vector<bool> is_in_block(frames_.size(), false);
   const auto add = [&](std::size_t scan, const Twist& part) {
     if (scan == fixed_) return;
-    if (std::find(scans.begin(), scans.end(), scan) == scans.end()) scans.push_back(scan);
+    if (!is_in_block[scan]) scans.push_back(scan);
+    is_in_block[scan] = true;
     score[scan] += part;
   };
   for (const auto& block : blocks_of(links_, block_m)) {
@@ -102,9 +110,14 @@ ScoreScatter ScoreSandwich::scatter(double block_m) const {
     }
     for (const std::size_t a : scans) {
       ++counts[a];
-      for (const std::size_t b : scans) sums.at(a, b) += score[a] * score[b].transpose();
+      for (const std::size_t b : scans) {
+        if (a <= b) sums.at(a, b) += score[a] * score[b].transpose();
+      }
     }
-    for (const std::size_t scan : scans) score[scan].setZero();
+    for (const std::size_t scan : scans) {
+      score[scan].setZero();
+      is_in_block[scan] = false;
+    }
     scans.clear();
   }
   return {sums.matrix(size(), 0), typical(counts)};
