@@ -47,9 +47,8 @@ std::optional<std::size_t> memory_bytes(const std::string& text);
 
 inline constexpr const char* kMemoryHelp =
     "memory to stay below where it can be, as 4G or 500M: what is not needed at once goes to a file in the folder of "
-    "TMPDIR, or /var/tmp; auto: half of the machine's, and at most 2G, of more than 25 scans 256M and 2M a scan; none: "
-    "no "
-    "limit; the result is the same for any";
+    "TMPDIR, or /var/tmp; auto: half of the machine's, and at most 2G, of more than 25 scans 256M and 2M a scan; "
+    "none: no limit; the result is the same for any";
 inline constexpr const char* kThreadsHelp = "threads; 0: all of the machine; the result is the same for any number";
 inline constexpr const char* kQuietHelp = "errors and warnings only, beside results that go to standard output";
 inline constexpr const char* kVerboseHelp = "say more of what happens";

@@ -17,8 +17,7 @@ namespace tcm_icp {
 namespace {
 
 constexpr std::chrono::milliseconds kPause{2};
-constexpr std::size_t kPutAwayShare =
-    8;  // from an eighth of the limit on: the rest is for what must stay, and for work
+constexpr std::size_t kPutAwayShare = 8;  // from an eighth of the limit on: the rest is for what must stay, and work
 // What comes back until the thread is awake again is more than a tenth of a small limit.
 constexpr double kReleaseShare = 0.7;
 constexpr double kLeastReleasedShare = 0.1;  // less is not worth touching all of it again
