@@ -22,6 +22,24 @@ struct LinkSums {
 };
 using PoseSums = LinkSums<6>;
 
+/// How the two scans of a link move against each other is held by a millionth of the link's mean curvature: what its
+/// matches do not determine stays, and nothing else. A pose that is held by itself would hold a chain against bending,
+/// where a thousandth of a degree a link is metres at its end.
+template <int kUnknowns>
+void hold_relative_motion(const TwistFrame& target, const TwistFrame& source, LinkSums<kUnknowns>& sums) {
+  constexpr double kShare = 1e-6;
+  Matrix6 of_target = -Matrix6::Identity();  // motion of the target in the source's frame, taken off
+  const Eigen::Vector3d d = source.centre - target.centre;
+  of_target.topLeftCorner<3, 3>() *= source.radius_m / target.radius_m;
+  Eigen::Matrix3d across;
+  across << 0, -d.z(), d.y(), d.z(), 0, -d.x(), -d.y(), d.x(), 0;
+  of_target.bottomLeftCorner<3, 3>() = across / target.radius_m;  // -(rotation x d)
+  const double weight = kShare * sums.ss.template topLeftCorner<6, 6>().trace() / 6;
+  sums.tt.template topLeftCorner<6, 6>() += weight * of_target.transpose() * of_target;
+  sums.ts.template topLeftCorner<6, 6>() += weight * of_target.transpose();
+  sums.ss.template topLeftCorner<6, 6>().diagonal().array() += weight;
+}
+
 /// Huber's: 1 up to the threshold, then falling with the residual.
 inline double huber_weight(double residual_m, double threshold_m) {
   return std::abs(residual_m) <= threshold_m ? 1 : threshold_m / std::abs(residual_m);
@@ -50,8 +68,7 @@ class JointNormalEquations {
   /// What is known of an unknown of a scan beforehand: that its step comes to `step`, with this weight.
   void add_prior(std::size_t scan, int unknown, double weight, double step);
 
-  /// Zero for the fixed pose and for scans without links; empty where the matrix cannot be factorised. A millionth of
-  /// the poses' mean curvature on the diagonal holds still what the matches do not determine, and nothing else.
+  /// Zero for the fixed pose and for scans without links; empty where the matrix cannot be factorised.
   Eigen::VectorXd solve();
 
  private:
