@@ -18,4 +18,16 @@ struct JudgedHypothesis {
 /// 0 where `spread` is 0 or nothing is judged. Cost: linear.
 double set_constant(const std::vector<JudgedHypothesis>& judged, double spread);
 
+/// What hypotheses' own log-odds are to be multiplied by, and what is to be added then.
+struct SetShift {
+  double constant = 0;
+  double slope = 1;
+  double of(double log_odds) const { return constant + slope * log_odds; }
+};
+
+/// The same with a slope, normally distributed with deviation `spread` about 1. Where thousands of pairs are compared
+/// that share nothing, most of what looks half right is wrong, and what looks right is right: a constant alone would
+/// be taught by the many, and take from the few.
+SetShift set_shift(const std::vector<JudgedHypothesis>& judged, double spread);
+
 }  // namespace tcm_icp

@@ -58,17 +58,16 @@ void HypothesisSet::score() {
       if (!h.is_later) first.push_back(h.measurements);
     }
   }
-  const double constant = reference_.constant, later_constant = reference_.later_constant;
+  const SetReference learnt = reference_;
   reference_ = SetReference::of(voxel_m_, noise_m_, first);
-  reference_.constant = constant;
-  reference_.later_constant = later_constant;
+  reference_.constant = learnt.constant;
+  reference_.later_constant = learnt.later_constant;
+  reference_.later_slope = learnt.later_slope;
   for (auto& [pair, hypotheses] : pairs_) {
     for (auto& h : hypotheses) {
       h.second_best_ratio = second_best_ratio(h, hypotheses, moments_[pair.second], same_m());
-      h.log_odds = constant_of(h) +
-                   hypothesis_log_odds(link_features(
-                       h.measurements, SearchMeasurements{h.candidate.method, h.candidate.margin, h.second_best_ratio},
-                       reference_));
+      const SearchMeasurements search{h.candidate.method, h.candidate.margin, h.second_best_ratio};
+      h.log_odds = in_set(h, hypothesis_log_odds(link_features(h.measurements, search, reference_)));
     }
     std::stable_sort(hypotheses.begin(), hypotheses.end(),
                      [](const LinkHypothesis& x, const LinkHypothesis& y) { return x.log_odds > y.log_odds; });
@@ -90,17 +89,20 @@ bool HypothesisSet::learn_constants(const std::vector<Component>& components, co
       for (const auto& h : hypotheses) {
         if (is_implied(h)) continue;  // agrees with poses right or wrong
         const bool right = rms_displacement((T[a]->inverse() * *T[b]).inverse() * h.T_a_b, moments_[b]) < same_m();
-        const JudgedHypothesis judged{h.log_odds - constant_of(h), right, sure};
+        const JudgedHypothesis judged{by_itself(h), right, sure};
         (h.is_later ? later : first).push_back(judged);
         if (!h.is_later) teachers_[pair].push_back(judged);
       }
     }
   }
-  const double constant = set_constant(first, set_spread), later_constant = set_constant(later, set_spread);
+  const double constant = set_constant(first, set_spread);
+  const SetShift of_later = set_shift(later, set_spread);
   const double change =
-      std::max(std::abs(constant - reference_.constant), std::abs(later_constant - reference_.later_constant));
+      std::max({std::abs(constant - reference_.constant), std::abs(of_later.constant - reference_.later_constant),
+                std::abs(of_later.slope - reference_.later_slope)});
   reference_.constant = constant;
-  reference_.later_constant = later_constant;
+  reference_.later_constant = of_later.constant;
+  reference_.later_slope = of_later.slope;
   return change > kSameConstant;
 }
 

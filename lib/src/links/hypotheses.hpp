@@ -71,8 +71,14 @@ class HypothesisSet {
       const std::vector<Eigen::Isometry3d>& T_reference_scan) const;
 
  private:
-  double constant_of(const LinkHypothesis& h) const {
-    return h.is_later ? reference_.later_constant : reference_.constant;
+  /// Log-odds in this set of a hypothesis with such log-odds by itself; and the other way round.
+  double in_set(const LinkHypothesis& h, double by_itself) const {
+    return h.is_later ? reference_.later_constant + reference_.later_slope * by_itself
+                      : reference_.constant + by_itself;
+  }
+  double by_itself(const LinkHypothesis& h) const {
+    return h.is_later ? (h.log_odds - reference_.later_constant) / reference_.later_slope
+                      : h.log_odds - reference_.constant;
   }
 
   double voxel_m_, noise_m_;

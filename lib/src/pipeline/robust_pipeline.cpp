@@ -325,6 +325,7 @@ class RobustPipeline {
   void report_hypotheses() {
     result_.set_log_odds = hypotheses_->reference().constant;
     result_.later_log_odds = hypotheses_->reference().later_constant;
+    result_.later_factor = hypotheses_->reference().later_slope;
     for (const auto& [pair, found] : hypotheses_->pairs()) {
       const auto [a, b] = pair;
       const auto both = std::find_if(settled_.begin(), settled_.end(), [a = a, b = b](const SettledComponent& s) {

@@ -183,6 +183,7 @@ Json report_object(const PipelineResult& result, const PipelineOptions& options,
               {"fine_voxel_m", result.fine_voxel_m},
               {"set_log_odds", result.set_log_odds},
               {"later_log_odds", result.later_log_odds},
+              {"later_factor", result.later_factor},
               {"warnings", result.warnings},
               {"project", project_json(description.report)}};
   const Eigen::Vector3d origin = result.local_origin();

@@ -36,7 +36,8 @@ struct SetReference {
   double best_inlier_share = 1;   ///< 0.95 quantile over the hypotheses
   double typical_residual_m = 0;  ///< [m] median residual of the tenth of them with the most consensus
   double constant = 0;            ///< added to the log-odds of all of the set's poses: HypothesisSet::learn_constants()
-  double later_constant = 0;      ///< in its place, of poses that were found for scans which the first search left
+  /// In its place, of poses that were found for scans which the first search left; their log-odds have a factor, too.
+  double later_constant = 0, later_slope = 1;
 
   /// @param hypotheses  of a whole set, right and wrong ones
   static SetReference of(double voxel_m, double noise_m, const std::vector<LinkMeasurements>& hypotheses);

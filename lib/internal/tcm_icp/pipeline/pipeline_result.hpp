@@ -73,7 +73,8 @@ struct PipelineResult {
   double coarse_voxel_m = 0;  ///< [m] resolution scans were placed with
   double fine_voxel_m = 0;    ///< [m] resolution they were adjusted with
   double set_log_odds = 0;    ///< constant in the log-odds of all hypotheses and links, learnt from the poses
-  double later_log_odds = 0;  ///< in its place, of hypotheses for scans that the first search left
+  /// In its place, of hypotheses for scans that the first search left; and a factor that theirs have before.
+  double later_log_odds = 0, later_factor = 1;
 
   bool all_registered() const;
   /// [m] The local frame, in which uncertainties and strengths are, is the common one minus this.
