@@ -27,7 +27,7 @@ std::vector<TwistFrame> frames_along_a_street(std::size_t num_scans) {
   return frames;
 }
 
-// Neighbours matched with each other, exact matches on planes of the given normals: the joint step is minus the truth.
+// Neighbours matched with each other, exact matches on planes of the given normals: the right step is `truth_m`.
 std::vector<JointLink> chain(const std::vector<TwistFrame>& frames, const std::vector<Twist>& truth_m,
                              const std::vector<Eigen::Vector3d>& normals, Rng& rng) {
   std::vector<JointLink> links;
