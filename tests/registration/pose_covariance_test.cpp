@@ -146,6 +146,41 @@ TEST(PoseCovariance, LinksThatContradictOneAnotherWidenIt) {
   EXPECT_GT(after.disagreement_factor, 2 * before.disagreement_factor);
 }
 
+// Each link lets what follows turn and move a little; at the end of a thousand that is what they add up to.
+TEST(PoseCovariance, GrowsAlongAChainAsItsLinksAddUp) {
+  constexpr double kSpacing_m = 10, kRadius_m = 15, kNoise_m = 0.003;
+  constexpr std::size_t kScans = 1000;
+  Rng rng = make_stream(4, "pose_covariance_test");
+  std::vector<TwistFrame> frames;
+  for (std::size_t i = 0; i < kScans; ++i) frames.push_back({{kSpacing_m * static_cast<double>(i), 0, 0}, kRadius_m});
+  std::vector<JointLink> links;
+  double variance_m2 = 0;  // of the height of the last scan's middle
+  for (std::size_t i = 1; i < kScans; ++i) {
+    JointLink link{i - 1, i, {}};
+    Eigen::Matrix<double, 6, 6> information = Eigen::Matrix<double, 6, 6>::Zero();
+    for (int k = 0; k < 60; ++k) {
+      Correspondence m;
+      m.normal = Eigen::Vector3d::Unit(k % 3);
+      m.source = frames[i].centre;
+      for (int axis = 0; axis < 3; ++axis) m.source[axis] += 40 * uniform01(rng) - 20;
+      m.target = m.source + kNoise_m * standard_normal(rng) * m.normal;
+      const Twist gradient = residual_gradient(m, frames[i]);
+      information += gradient * gradient.transpose();
+      link.matches.push_back(m);
+    }
+    links.push_back(std::move(link));
+    Twist height = Twist::Zero();
+    height[5] = 1;
+    height[1] = -kSpacing_m * static_cast<double>(kScans - 1 - i) / kRadius_m;
+    variance_m2 += kNoise_m * kNoise_m * height.dot(information.inverse() * height);
+  }
+  const JointUncertainty u = estimate_uncertainty(frames, 0, links, kOptions);
+  ASSERT_GT(std::sqrt(variance_m2), 5);
+  // The block's size that gives most is on the safe side.
+  EXPECT_GT(u.poses.back().sigma_position_m().z(), 0.9 * std::sqrt(variance_m2));
+  EXPECT_LT(u.poses.back().sigma_position_m().z(), 1.6 * std::sqrt(variance_m2));
+}
+
 TEST(PoseCovariance, SaysWhatItDoesNotKnow) {
   Rng rng = make_stream(3, "pose_covariance_test");
   const JointScene ground = testing::joint_scene({.noise_m = 0.01, .step_m = 0, .only_ground = true}, rng);
