@@ -65,7 +65,7 @@ std::vector<Twist> steps_m(const BentScene& scene, ScanBending* bending, int rou
     }
     const double threshold_m = kHuberFactor * robust_noise_m(links);
     const int unknowns = bending != nullptr ? kBentUnknowns : kPoseUnknowns;
-    JointNormalEquations equations(steps.size(), 0, unknowns);
+    JointNormalEquations equations(scene.frames, 0, unknowns);
     for (const auto& link : links) {
       const TwistFrame &target = scene.frames[link.target], &source = scene.frames[link.source];
       if (bending != nullptr) {

@@ -47,7 +47,7 @@ std::vector<JointLink> chain(const std::vector<TwistFrame>& frames, const std::v
 }
 
 std::vector<Twist> solve(const std::vector<TwistFrame>& frames, const std::vector<JointLink>& links) {
-  JointNormalEquations equations(frames.size(), 0);
+  JointNormalEquations equations(frames, 0);
   for (const auto& link : links) {
     equations.add(link, huber_sums(link, frames[link.target], frames[link.source], 1));
   }

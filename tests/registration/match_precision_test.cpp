@@ -31,7 +31,7 @@ testing::JointScene half_rough_scene(Rng& rng) {
 
 // Largest error [m] of the steps that Huber's least squares find.
 double error_m(const testing::JointScene& scene) {
-  JointNormalEquations equations(scene.frames.size(), 0);
+  JointNormalEquations equations(scene.frames, 0);
   const double threshold_m = 1.345 * robust_noise_m(scene.links);
   for (const auto& link : scene.links) {
     equations.add(link, huber_sums(link, scene.frames[link.target], scene.frames[link.source], threshold_m));

@@ -24,7 +24,7 @@ std::vector<Twist> huber_steps(const JointScene& s, double threshold_m) {
   std::vector<Twist> total(s.frames.size(), Twist::Zero());
   std::vector<JointLink> links = s.links;
   for (int round = 0; round < 8; ++round) {
-    JointNormalEquations equations(s.frames.size(), 0);
+    JointNormalEquations equations(s.frames, 0);
     for (const auto& link : links) {
       equations.add(link, huber_sums(link, s.frames[link.target], s.frames[link.source], threshold_m));
     }

@@ -132,7 +132,7 @@ class Adjustment {
   /// Steps of all unknowns, scan by scan; empty where there is no solution.
   Eigen::VectorXd solve_for_poses(const std::vector<JointLink>& links, const std::vector<TwistFrame>& frames,
                                   double threshold_m) const {
-    JointNormalEquations equations(scans_.size(), reference_);
+    JointNormalEquations equations(frames, reference_);
     add_sums<PoseSums>(equations, links, [&](const JointLink& link) {
       return huber_sums(link, frames[link.target], frames[link.source], threshold_m);
     });
@@ -141,7 +141,7 @@ class Adjustment {
 
   Eigen::VectorXd solve_with_bending(const std::vector<JointLink>& links, const std::vector<TwistFrame>& frames,
                                      double threshold_m) const {
-    JointNormalEquations equations(scans_.size(), reference_, kBentUnknowns);
+    JointNormalEquations equations(frames, reference_, kBentUnknowns);
     add_sums<BentSums>(equations, links, [&](const JointLink& link) {
       return bending_.sums(link, frames[link.target], frames[link.source], threshold_m);
     });

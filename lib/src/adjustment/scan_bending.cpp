@@ -130,7 +130,6 @@ BentSums ScanBending::sums(const JointLink& link, const TwistFrame& target, cons
   sums.ss = products.block<kBentUnknowns, kBentUnknowns>(kBentUnknowns, kBentUnknowns);
   sums.t = -products.col(kRows - 1).head<kBentUnknowns>();
   sums.s = -products.col(kRows - 1).segment<kBentUnknowns>(kBentUnknowns);
-  hold_relative_motion(target, source, sums);
   return sums;
 }
 

@@ -2,6 +2,8 @@
 
 #include <Eigen/SparseCholesky>
 
+#include "core/cross_matrix.hpp"
+
 namespace tcm_icp {
 namespace {
 
@@ -23,15 +25,22 @@ PoseSums huber_sums(const JointLink& link, const TwistFrame& target, const Twist
     sums.t -= weight * r * jt;
     sums.s -= weight * r * js;
   }
-  hold_relative_motion(target, source, sums);
   return sums;
 }
 
-JointNormalEquations::JointNormalEquations(std::size_t num_scans, std::size_t fixed, int unknowns)
-    : num_scans_(num_scans),
+JointNormalEquations::JointNormalEquations(const std::vector<TwistFrame>& frames, std::size_t fixed, int unknowns)
+    : frames_(frames),
       fixed_(fixed),
       unknowns_(unknowns),
-      rhs_(Eigen::VectorXd::Zero(unknowns * static_cast<Eigen::Index>(num_scans))) {}
+      rhs_(Eigen::VectorXd::Zero(unknowns * static_cast<Eigen::Index>(frames.size()))) {}
+
+Matrix6 JointNormalEquations::relative_motion(const JointLink& link) const {
+  const TwistFrame &target = frames_[link.target], &source = frames_[link.source];
+  Matrix6 motion = -Matrix6::Identity();
+  motion.topLeftCorner<3, 3>() *= source.radius_m / target.radius_m;
+  motion.bottomLeftCorner<3, 3>() = cross_matrix(source.centre - target.centre) / target.radius_m;
+  return motion;
+}
 
 void JointNormalEquations::add_prior(std::size_t scan, int unknown, double weight, double step) {
   const int at = place(scan, unknown);
@@ -57,7 +66,7 @@ void JointNormalEquations::add_rhs(std::size_t row, const Eigen::Ref<const Eigen
 }
 
 Eigen::VectorXd JointNormalEquations::solve() {
-  const double damping = kShareThatHolds * trace_ / static_cast<double>(6 * num_scans_) + 1e-300;
+  const double damping = kShareThatHolds * trace_ / static_cast<double>(6 * frames_.size()) + 1e-300;
   for (int i = 0; i < rhs_.size(); ++i) entries_.emplace_back(i, i, damping);
   Eigen::SparseMatrix<double> matrix(rhs_.size(), rhs_.size());
   matrix.setFromTriplets(entries_.begin(), entries_.end());

@@ -22,24 +22,6 @@ struct LinkSums {
 };
 using PoseSums = LinkSums<6>;
 
-/// How the two scans of a link move against each other is held by a millionth of the link's mean curvature: what its
-/// matches do not determine stays, and nothing else. A pose that is held by itself would hold a chain against bending,
-/// where a thousandth of a degree a link is metres at its end.
-template <int kUnknowns>
-void hold_relative_motion(const TwistFrame& target, const TwistFrame& source, LinkSums<kUnknowns>& sums) {
-  constexpr double kShare = 1e-6;
-  Matrix6 of_target = -Matrix6::Identity();  // motion of the target in the source's frame, taken off
-  const Eigen::Vector3d d = source.centre - target.centre;
-  of_target.topLeftCorner<3, 3>() *= source.radius_m / target.radius_m;
-  Eigen::Matrix3d across;
-  across << 0, -d.z(), d.y(), d.z(), 0, -d.x(), -d.y(), d.x(), 0;
-  of_target.bottomLeftCorner<3, 3>() = across / target.radius_m;  // -(rotation x d)
-  const double weight = kShare * sums.ss.template topLeftCorner<6, 6>().trace() / 6;
-  sums.tt.template topLeftCorner<6, 6>() += weight * of_target.transpose() * of_target;
-  sums.ts.template topLeftCorner<6, 6>() += weight * of_target.transpose();
-  sums.ss.template topLeftCorner<6, 6>().diagonal().array() += weight;
-}
-
 /// Huber's: 1 up to the threshold, then falling with the residual.
 inline double huber_weight(double residual_m, double threshold_m) {
   return std::abs(residual_m) <= threshold_m ? 1 : threshold_m / std::abs(residual_m);
@@ -50,12 +32,21 @@ PoseSums huber_sums(const JointLink& link, const TwistFrame& target, const Twist
 
 class JointNormalEquations {
  public:
+  /// @param frames    one a scan, of its unknowns; they outlive the equations
   /// @param fixed     the scan whose pose stays
   /// @param unknowns  of a scan: the six of its pose first
-  JointNormalEquations(std::size_t num_scans, std::size_t fixed, int unknowns = 6);
+  JointNormalEquations(const std::vector<TwistFrame>& frames, std::size_t fixed, int unknowns = 6);
 
+  /// How the two scans of a link move against each other is held by a millionth of the link's mean curvature: what its
+  /// matches do not determine stays, and nothing else. A pose that is held by itself would hold a chain against
+  /// bending, where a thousandth of a degree a link is metres at its end.
   template <int kUnknowns>
-  void add(const JointLink& link, const LinkSums<kUnknowns>& sums) {
+  void add(const JointLink& link, LinkSums<kUnknowns> sums) {
+    const Matrix6 held = relative_motion(link);
+    const double weight = kHeldShare * sums.ss.template topLeftCorner<6, 6>().trace() / 6;
+    sums.tt.template topLeftCorner<6, 6>() += weight * held.transpose() * held;
+    sums.ts.template topLeftCorner<6, 6>() += weight * held.transpose();
+    sums.ss.template topLeftCorner<6, 6>().diagonal().array() += weight;
     add_block(link.target, link.target, sums.tt);
     add_block(link.target, link.source, sums.ts);
     add_block(link.source, link.target, sums.ts.transpose());
@@ -72,12 +63,17 @@ class JointNormalEquations {
   Eigen::VectorXd solve();
 
  private:
+  static constexpr double kHeldShare = 1e-6;
+
+  /// By the target's step, in units of the source's; by the source's own it is the identity.
+  Matrix6 relative_motion(const JointLink& link) const;
   void add_block(std::size_t row, std::size_t column, const Eigen::Ref<const Eigen::MatrixXd>& block);
   void add_rhs(std::size_t row, const Eigen::Ref<const Eigen::VectorXd>& part);
   int place(std::size_t scan, int unknown) const { return unknowns_ * static_cast<int>(scan) + unknown; }
   bool is_fixed(std::size_t scan, int unknown) const { return scan == fixed_ && unknown < 6; }
 
-  std::size_t num_scans_, fixed_;
+  const std::vector<TwistFrame>& frames_;
+  std::size_t fixed_;
   int unknowns_;
   double trace_ = 0;
   std::vector<Eigen::Triplet<double>> entries_;
