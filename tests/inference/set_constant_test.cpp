@@ -79,7 +79,8 @@ std::vector<JudgedHypothesis> drawn(const SetShift& shift, double low, double hi
 }
 
 TEST(SetShift, IsNothingWithoutEvidenceOrSpread) {
-  for (const SetShift& shift : {set_shift({}, 1), set_shift({{-3, true, 1}}, 0), set_shift({{-3, true, 0}}, 1)}) {
+  for (const SetShift& shift :
+       {set_shift({}, 1, 1), set_shift({{-3, true, 1}}, 0, 1), set_shift({{-3, true, 0}}, 1, 1)}) {
     EXPECT_NEAR(shift.constant, 0, 1e-12);
     EXPECT_NEAR(shift.slope, 1, 1e-12);
     EXPECT_NEAR(shift.of(2.5), 2.5, 1e-12);
@@ -91,7 +92,7 @@ TEST(SetShift, IsTheModeOfThePosterior) {
   for (const double spread : {0.3, 1.0, 3.0}) {
     auto judged = drawn({1.5, 1.6}, -4, 4, 60, rng);
     for (auto& h : judged) h.sure = uniform01(rng);
-    const SetShift shift = set_shift(judged, spread);
+    const SetShift shift = set_shift(judged, spread, spread);
     const double at = posterior(judged, spread, shift);
     for (double constant = -4; constant <= 4; constant += 0.1) {
       for (double slope = 0.1; slope <= 4; slope += 0.1) {
@@ -104,7 +105,7 @@ TEST(SetShift, IsTheModeOfThePosterior) {
 TEST(SetShift, ManyJudgementsTellWhatASetHas) {
   Rng rng = make_stream(4, "set_constant_test");
   for (const SetShift& truth : {SetShift{-2, 1.5}, SetShift{0, 1}, SetShift{1.5, 0.6}}) {
-    const SetShift shift = set_shift(drawn(truth, -4, 4, 8000, rng), 1);
+    const SetShift shift = set_shift(drawn(truth, -4, 4, 8000, rng), 1, 1);
     EXPECT_NEAR(shift.constant, truth.constant, 0.2);
     EXPECT_NEAR(shift.slope, truth.slope, 0.15);
   }
@@ -116,13 +117,13 @@ TEST(SetShift, WhatLooksRightIsNotPutDownToWhatLooksWrong) {
   auto judged = drawn({0, 1}, 0, 6, 30, rng);
   for (int i = 0; i < 20000; ++i) judged.push_back({-6 * uniform01(rng), false, 1});
   EXPECT_LT(set_constant(judged, 0.5) + 3, 0) << "a constant alone leaves nothing of 3";
-  EXPECT_GT(set_shift(judged, 0.5).of(3), 1);
+  EXPECT_GT(set_shift(judged, 0.5, 0.5).of(3), 1);
 }
 
 TEST(SetShift, NeverTurnsWhatLooksBetterIntoWorse) {
   std::vector<JudgedHypothesis> judged;
   for (int i = 0; i < 1000; ++i) judged.push_back({i % 2 == 0 ? 4.0 : -4.0, i % 2 != 0, 1});
-  EXPECT_GT(set_shift(judged, 3).slope, 0);
+  EXPECT_GT(set_shift(judged, 3, 3).slope, 0);
 }
 
 }  // namespace

@@ -15,31 +15,19 @@ constexpr double kLeastSlope = 0.1;  // what looks better is not worse
 }  // namespace
 
 double set_constant(const std::vector<JudgedHypothesis>& judged, double spread) {
-  if (spread <= 0) return 0;
-  double constant = 0;
-  for (int k = 0; k < kMaxSteps; ++k) {  // Newton; the posterior is concave
-    double gradient = -constant / (spread * spread), curvature = 1 / (spread * spread);
-    for (const JudgedHypothesis& h : judged) {
-      const double p = 1 / (1 + std::exp(-h.log_odds - constant));
-      gradient += h.sure * ((h.right ? 1 : 0) - p);
-      curvature += h.sure * p * (1 - p);
-    }
-    const double step = std::clamp(gradient / curvature, -kMaxStep, kMaxStep);
-    constant += step;
-    if (std::abs(step) < kLeastStep) break;
-  }
-  return constant;
+  return set_shift(judged, spread, 0).constant;
 }
 
-SetShift set_shift(const std::vector<JudgedHypothesis>& judged, double spread) {
+SetShift set_shift(const std::vector<JudgedHypothesis>& judged, double spread, double slope_spread) {
   SetShift out;
   if (spread <= 0) return out;
-  const double weight = 1 / (spread * spread);
-  for (int k = 0; k < kMaxSteps; ++k) {
-    Eigen::Vector2d gradient{-weight * out.constant, -weight * (out.slope - 1)};
-    Eigen::Matrix2d curvature = weight * Eigen::Matrix2d::Identity();
+  const bool has_slope = slope_spread > 0;
+  const double weight = 1 / (spread * spread), slope_weight = has_slope ? 1 / (slope_spread * slope_spread) : 1;
+  for (int k = 0; k < kMaxSteps; ++k) {  // Newton; the posterior is concave
+    Eigen::Vector2d gradient{-weight * out.constant, -slope_weight * (out.slope - 1)};
+    Eigen::Matrix2d curvature = Eigen::Vector2d(weight, slope_weight).asDiagonal();
     for (const JudgedHypothesis& h : judged) {
-      const Eigen::Vector2d row{1, h.log_odds};
+      const Eigen::Vector2d row{1, has_slope ? h.log_odds : 0};
       const double p = 1 / (1 + std::exp(-out.of(h.log_odds)));
       gradient += h.sure * ((h.right ? 1 : 0) - p) * row;
       curvature += h.sure * p * (1 - p) * row * row.transpose();

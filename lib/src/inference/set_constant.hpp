@@ -12,12 +12,6 @@ struct JudgedHypothesis {
   double sure = 1;  ///< 0..1; probability that those poses are right
 };
 
-/// A constant to be added to the log-odds of all of them: the mode of its posterior, where sets differ by a normal
-/// distribution with deviation `spread` about 0 (a random intercept; what scripts/calibrate.py fits the model with). No
-/// model knows each sensor and scene; that all pairs of a corridor look poor alike says nothing against any of them.
-/// 0 where `spread` is 0 or nothing is judged. Cost: linear.
-double set_constant(const std::vector<JudgedHypothesis>& judged, double spread);
-
 /// What hypotheses' own log-odds are to be multiplied by, and what is to be added then.
 struct SetShift {
   double constant = 0;
@@ -25,9 +19,15 @@ struct SetShift {
   double of(double log_odds) const { return constant + slope * log_odds; }
 };
 
-/// The same with a slope, normally distributed with deviation `spread` about 1. Where thousands of pairs are compared
-/// that share nothing, most of what looks half right is wrong, and what looks right is right: a constant alone would
-/// be taught by the many, and take from the few.
-SetShift set_shift(const std::vector<JudgedHypothesis>& judged, double spread);
+/// The mode of the posterior, where sets differ by normal distributions: in the constant with deviation `spread` about
+/// 0, in the slope with `slope_spread` about 1 (random effects; what scripts/calibrate.py fits the model with). No
+/// model knows each sensor and scene; that all pairs of a corridor look poor alike says nothing against any of them.
+/// And where thousands of pairs are compared that share nothing, most of what looks half right is wrong, and what looks
+/// right is right: a constant alone would be taught by the many, and take from the few. Nothing changes where `spread`
+/// is 0 or nothing is judged; the slope is 1 where its spread is 0. Cost: linear.
+SetShift set_shift(const std::vector<JudgedHypothesis>& judged, double spread, double slope_spread);
+
+/// The constant of one without a slope.
+double set_constant(const std::vector<JudgedHypothesis>& judged, double spread);
 
 }  // namespace tcm_icp

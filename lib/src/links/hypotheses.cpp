@@ -96,7 +96,7 @@ bool HypothesisSet::learn_constants(const std::vector<Component>& components, co
     }
   }
   const double constant = set_constant(first, set_spread);
-  const SetShift of_later = set_shift(later, set_spread);
+  const SetShift of_later = set_shift(later, set_spread, set_spread);
   const double change =
       std::max({std::abs(constant - reference_.constant), std::abs(of_later.constant - reference_.later_constant),
                 std::abs(of_later.slope - reference_.later_slope)});
