@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "inference/hypothesis_world.hpp"
 #include "support/synthetic_scene.hpp"
 
 namespace tcm_icp {

@@ -277,6 +277,46 @@ TEST(PairSearch, TheLastScanOfALargeSetIsAlignedWithAll) {
   EXPECT_EQ(set.pairs().size(), 6u);
 }
 
+// Two halves, the ends of which are asked for one another: each with the six that its features fit best, and the six
+// that its height map does.
+TEST(PairSearch, SomeOfTwoGroupsOfALargeSetAreTriedWithTheLikeliestOfTheOther) {
+  constexpr std::size_t kAll = 30, kHalf = 15, kSome = 10;
+  Rng rng = make_stream(8, "pair_search_test");
+  const PreparedScene s = testing::prepared_scene({.num_scans = kAll, .points_per_scan = 800}, rng);
+  PairSearch search(s.scans, kOptions, kContext);
+  HypothesisSet set = no_hypotheses(s);
+  std::vector<std::size_t> groups(kAll, 0), some;
+  for (std::size_t i = kHalf; i < kAll; ++i) groups[i] = 1;
+  for (std::size_t i = 0; i < kSome; ++i) some.insert(some.end(), {i, kHalf + i});
+  ASSERT_TRUE(search.try_between(some, groups, set));
+  std::vector<std::size_t> num_partners(kAll, 0);
+  for (const auto& [a, b] : tried(set)) {
+    EXPECT_NE(groups[a], groups[b]);
+    ++num_partners[a];
+    ++num_partners[b];
+  }
+  for (std::size_t i = 0; i < kAll; ++i) {
+    const bool is_asked = i % kHalf < kSome;
+    EXPECT_GE(num_partners[i], is_asked ? 6 : 0) << i;
+    EXPECT_LE(num_partners[i], is_asked ? kSome : 0) << i;
+  }
+  EXPECT_LT(tried(set).size(), kSome * kSome) << "not all with all";
+  EXPECT_FALSE(search.try_between(some, groups, set)) << "no pair is tried twice";
+  EXPECT_FALSE(search.try_between(some, std::vector<std::size_t>(kAll, 0), set)) << "none lies between groups";
+}
+
+TEST(PairSearch, ScansBetweenGroupsAreAskedInLargeSetsAloneAndFewerThanAPairOfEachWouldCost) {
+  const auto most_of = [](std::size_t num_scans) {
+    Rng rng = make_stream(7, "pair_search_test");
+    const PreparedScene s = testing::prepared_scene({.num_scans = num_scans, .points_per_scan = 800}, rng);
+    return PairSearch(s.scans, kOptions, kContext).most_between();
+  };
+  EXPECT_EQ(most_of(25), 0u);
+  const std::size_t most = most_of(26);
+  EXPECT_GT(most, 6u);
+  EXPECT_LE(most * (most - 1) / 2, 3u * 26) << "first partners were no more";
+}
+
 TEST(PairSearch, AStrangersPosesAreLessLikelyThanThoseOfScansOfOnePlace) {
   PreparedScene s = yard(2, 4);
   Rng rng = make_stream(4, "pair_search_test rubble");

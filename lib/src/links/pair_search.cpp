@@ -88,6 +88,16 @@ std::vector<std::size_t> most_overlapping(const std::vector<ImpliedPose>& poses,
   return {out.begin(), out.end()};
 }
 
+// Those with the `count` highest scores, the highest first.
+void keep_best(const std::vector<double>& score_of_each, std::size_t count, std::vector<std::size_t>& scans) {
+  if (scans.size() <= count) return;
+  std::vector<std::pair<double, std::size_t>> by_score;
+  for (std::size_t k = 0; k < scans.size(); ++k) by_score.emplace_back(-score_of_each[k], scans[k]);
+  std::sort(by_score.begin(), by_score.end());
+  scans.resize(count);
+  for (std::size_t k = 0; k < count; ++k) scans[k] = by_score[k].second;
+}
+
 enum class Tried : char { kNothing, kHeightMaps, kFeatures, kSlides };
 
 Tried next(Tried before) { return static_cast<Tried>(static_cast<char>(before) + 1); }
@@ -121,6 +131,7 @@ struct PairSearch::Impl {
   FeatureAlignmentOptions features;
   std::vector<DescribedScan> described;                                                   // once they are asked for
   std::optional<ScanWords> words;                                                         // the same
+  Alignments from_above;                                                                  // by height maps
   Alignments aligned, ranked;                                                             // by features
   std::map<std::pair<std::size_t, std::size_t>, std::vector<Eigen::Isometry3d>> fitted;   // target and source
   std::map<std::pair<std::size_t, std::size_t>, std::vector<Eigen::Isometry3d>> implied;  // that were tried
@@ -147,29 +158,57 @@ struct PairSearch::Impl {
   std::vector<std::size_t> partners(std::size_t scan, const std::vector<std::size_t>& groups, std::size_t num_wanted) {
     std::vector<std::size_t> out = outside_group(scan, groups);
     if (out.size() <= reach[scan]) return out;
-    const auto keep_best = [&](const std::vector<double>& score, std::size_t count) {
-      if (out.size() <= count) return;
-      const auto end = out.begin() + static_cast<std::ptrdiff_t>(count);
-      std::partial_sort(out.begin(), end, out.end(), [&](std::size_t x, std::size_t y) {
-        return score[x] != score[y] ? score[x] > score[y] : x < y;
-      });
-      out.erase(end, out.end());
-    };
     if (is_large()) {
       if (!words) {
         describe();
         words.emplace(described, context.num_threads);
       }
-      keep_best(words->likeness(scan),
-                std::max(kAlignedByReach * reach[scan], kFirstPartners * scans.size() / num_wanted));
+      const std::vector<double> likeness = words->likeness(scan);
+      std::vector<double> of_others;
+      for (const std::size_t j : out) of_others.push_back(likeness[j]);
+      keep_best(of_others, std::max(kAlignedByReach * reach[scan], kFirstPartners * scans.size() / num_wanted), out);
     }
-    ScanPairs pairs;
-    for (const std::size_t j : out) pairs.push_back(std::minmax(scan, j));
-    const std::vector<double> of_pairs = is_large() ? feature_scores(pairs) : height_maps.scores(pairs);
-    std::vector<double> score(scans.size(), 0);
-    for (std::size_t k = 0; k < out.size(); ++k) score[out[k]] = of_pairs[k];
-    keep_best(score, reach[scan]);
+    keep_best_aligned(scan, reach[scan], out);
     return out;
+  }
+
+  /// Of a scan those that overlap most, as far as alignments tell.
+  void keep_best_aligned(std::size_t scan, std::size_t count, std::vector<std::size_t>& others) {
+    const ScanPairs pairs = pairs_with(scan, others);
+    keep_best(is_large() ? feature_scores(pairs) : height_maps.scores(pairs), count, others);
+  }
+
+  static ScanPairs pairs_with(std::size_t scan, const std::vector<std::size_t>& others) {
+    ScanPairs out;
+    for (const std::size_t j : others) out.push_back(std::minmax(scan, j));
+    return out;
+  }
+
+  /// Pairs of scans of different groups that were not tried: each with those that its height map is most like, and with
+  /// those whose features align best, for neither tells all.
+  ScanPairs pairs_between(const std::vector<std::size_t>& some, const std::vector<std::size_t>& groups) {
+    ScanPairs all;
+    for (std::size_t x = 0; x < some.size(); ++x) {
+      for (std::size_t y = x + 1; y < some.size(); ++y) {
+        if (groups[some[x]] != groups[some[y]]) all.push_back(std::minmax(some[x], some[y]));
+      }
+    }
+    if (all.empty()) return {};
+    by_height_maps(all);
+    std::set<ScanPairs::value_type> chosen;
+    for (const std::size_t i : some) {
+      std::vector<std::size_t> others;
+      std::copy_if(some.begin(), some.end(), std::back_inserter(others),
+                   [&](std::size_t j) { return groups[j] != groups[i]; });
+      const ScanPairs pairs = pairs_with(i, others);
+      for (const auto& score : {best_scores(from_above, pairs), feature_scores(pairs)}) {
+        auto best = others;
+        keep_best(score, kFirstPartners, best);
+        for (const std::size_t j : best) chosen.insert(std::minmax(i, j));
+      }
+    }
+    std::erase_if(chosen, [&](const auto& pair) { return tried.contains(pair); });
+    return {chosen.begin(), chosen.end()};
   }
 
   bool is_large() const { return scans.size() > kMostPartners + 1; }
@@ -188,9 +227,13 @@ struct PairSearch::Impl {
     FeatureAlignmentOptions first_level = features;
     first_level.levels.resize(1);
     align(pairs, first_level, ranking_key, ranked);
+    return best_scores(ranked, pairs);
+  }
+
+  static std::vector<double> best_scores(const Alignments& known, const ScanPairs& pairs) {
     std::vector<double> out;
     for (const auto& pair : pairs) {
-      const std::vector<PoseCandidate>& found = ranked.at(pair);
+      const std::vector<PoseCandidate>& found = known.at(pair);
       out.push_back(found.empty() ? 0 : found.front().score);
     }
     return out;
@@ -273,6 +316,18 @@ struct PairSearch::Impl {
     });
   }
 
+  std::vector<std::vector<PoseCandidate>> by_height_maps(const ScanPairs& pairs) {
+    ScanPairs open;
+    for (const auto& pair : pairs) {
+      if (!from_above.contains(pair)) open.push_back(pair);
+    }
+    auto found = height_maps.candidates(open, height_maps.grids_of(open));
+    for (std::size_t k = 0; k < open.size(); ++k) from_above.emplace(open[k], std::move(found[k]));
+    std::vector<std::vector<PoseCandidate>> out;
+    for (const auto& pair : pairs) out.push_back(from_above.at(pair));
+    return out;
+  }
+
   std::vector<std::vector<PoseCandidate>> by_features(const ScanPairs& pairs) {
     align(pairs, features, feature_key, aligned);
     std::vector<std::vector<PoseCandidate>> out;
@@ -325,7 +380,7 @@ struct PairSearch::Impl {
     switch (before) {
       case Tried::kNothing:
         context.report("comparing height maps", 0, pairs.size());
-        return height_maps.candidates(pairs, height_maps.grids_of(pairs));
+        return by_height_maps(pairs);
       case Tried::kHeightMaps:
         context.report("comparing features", 0, pairs.size());
         return by_features(pairs);
@@ -492,6 +547,20 @@ bool PairSearch::may_overlap(std::size_t a, std::size_t b, const Eigen::Isometry
 
 bool PairSearch::try_implied(const std::vector<ImpliedPose>& poses, HypothesisSet& set) {
   return impl_->try_poses(poses, CoarseMethod::kImplied, kImpliedPartners, set);
+}
+
+std::size_t PairSearch::most_between() const {
+  return impl_->is_large() ? static_cast<std::size_t>(std::sqrt(1.0 * kFirstPartners * impl_->scans.size())) : 0;
+}
+
+bool PairSearch::try_between(const std::vector<std::size_t>& some, const std::vector<std::size_t>& groups,
+                             HypothesisSet& set) {
+  const ScanPairs pairs = impl_->pairs_between(some, groups);
+  for (const Tried before : {Tried::kNothing, Tried::kHeightMaps, Tried::kFeatures}) {
+    if (impl_->uses(next(before))) impl_->fit(pairs, impl_->candidates(before, pairs), true, set);
+    for (const auto& pair : pairs) impl_->tried[pair] = next(before);
+  }
+  return !pairs.empty();
 }
 
 bool PairSearch::extend(const std::vector<bool>& wanted, const std::vector<std::size_t>& groups, HypothesisSet& set) {

@@ -12,6 +12,7 @@
 #include "inference/configuration.hpp"
 #include "inference/cuts.hpp"
 #include "inference/implied_poses.hpp"
+#include "inference/margins.hpp"
 #include "links/pair_search.hpp"
 #include "pipeline/kept_set.hpp"
 #include "pipeline/pipeline_input.hpp"
@@ -105,23 +106,44 @@ class RobustPipeline {
     hypotheses_.emplace(resolutions_.coarse_m, median(noise_m), std::move(moments));
     const LinkSearchOptions options{in_.options.formulation, in_.options.lp, in_.options.level,
                                     !leaves_out(LeftOut::kFeatures), !leaves_out(LeftOut::kSlides)};
-    const int max_implied = leaves_out(LeftOut::kImpliedPoses) ? 0 : kMaxImplied;
     PairSearch search(scans_, options, in_.context, kept_);
     std::vector<bool> wanted(size(), true);
     std::vector<std::size_t> groups(size());
     std::iota(groups.begin(), groups.end(), std::size_t{0});
     while (search.extend(wanted, groups, *hypotheses_)) {
-      Inferred now = infer(kLeastStarts);
-      for (int round = 0; round < max_implied && search.try_implied(implied(now, search), *hypotheses_); ++round)
-        now = infer(1);
+      Inferred now = infer_with_implied(search);
+      groups = groups_of(now);
+      while (search.try_between(margins_of_groups(now.graph, now.components, groups, search.most_between()), groups,
+                                *hypotheses_)) {
+        const std::size_t num_before = num_groups(groups);
+        now = infer_with_implied(search);
+        groups = groups_of(now);
+        if (num_groups(groups) >= num_before) break;
+      }
       wanted = without_clear_place(now);
-      groups = clear_groups(now.components, now.cuts, kLeadToRest, size());
       in_.context.debug(std::to_string(std::count(wanted.begin(), wanted.end(), true)) + " of " +
                         std::to_string(size()) + " scans have no clear place; " +
                         std::to_string(hypotheses_->pairs().size()) + " pairs were compared");
       if (std::count(wanted.begin(), wanted.end(), true) == 0) break;
     }
     search.try_guesses(T_init_, *hypotheses_);  // they place what the search did not
+  }
+
+  // What the likeliest poses imply of other pairs is asked, too.
+  Inferred infer_with_implied(PairSearch& search) {
+    const int max_implied = leaves_out(LeftOut::kImpliedPoses) ? 0 : kMaxImplied;
+    Inferred now = infer(kLeastStarts);
+    for (int round = 0; round < max_implied && search.try_implied(implied(now, search), *hypotheses_); ++round) {
+      now = infer(1);
+    }
+    return now;
+  }
+
+  std::vector<std::size_t> groups_of(const Inferred& now) const {
+    return clear_groups(now.components, now.cuts, kLeadToRest, size());
+  }
+  static std::size_t num_groups(const std::vector<std::size_t>& groups) {
+    return *std::max_element(groups.begin(), groups.end()) + 1;
   }
 
   Inferred infer(int least_starts) {
