@@ -23,6 +23,9 @@ using testing::kRounding;
 // Of log(1 + e^(l + 3)) - 3 against l, from l = 3 on.
 constexpr double kOfLogOdds = 0.0025;
 
+// Of another place, beside that all hypotheses are wrong.
+double with_none(double log_odds) { return std::log1p(std::exp(log_odds)); }
+
 class CutsTest : public ::testing::Test {
  protected:
   void add(std::size_t a, std::size_t b, double log_odds) { world_.add(a, b, {world_.hypothesis(a, b, log_odds)}); }
@@ -57,7 +60,7 @@ TEST_F(CutsTest, TheOtherPlaceOfAScanLowersItsLead) {
   const Cut cut = measure_cut(world_.graph(), component, {2});
   EXPECT_NEAR(cut.support, 6, kOfLogOdds);
   EXPECT_NEAR(cut.other_support, 4, kOfLogOdds);
-  EXPECT_NEAR(cut.lead(), 2, 2 * kOfLogOdds);
+  EXPECT_NEAR(cut.lead(), 6 - with_none(4), 2 * kOfLogOdds);
   ASSERT_TRUE(cut.other_motion);
   const Isometry3d& T = *component.T_reference_scan[2];
   EXPECT_TRUE(testing::is_pose_near(T * Eigen::Translation3d(0, 7, 0), *cut.other_motion * T, kRounding, kRounding));
@@ -129,13 +132,33 @@ TEST_F(CutsTest, ASingleLinkIsNoTwin) {
 }
 
 // Less likely than that all hypotheses across are wrong.
-TEST_F(CutsTest, AnotherPlaceThatIsNoneTakesNothingAway) {
+TEST_F(CutsTest, AnotherPlaceThatIsNoneTakesLittleAway) {
   add(0, 1, 6);
   world_.add(0, 1, {world_.aside(0, 1, -1, 7)});
   const Cut cut = measure_cut(world_.graph(), world_.truth({0, 1}), {1});
   EXPECT_FALSE(cut.other_motion);
   EXPECT_EQ(cut.other_support, 0);
-  EXPECT_EQ(cut.lead(), cut.support);
+  EXPECT_NEAR(cut.lead(), cut.support - with_none(-1), kRounding);
+}
+
+// A hundred pairs that were compared in vain: that the best of them says something is no wonder.
+TEST_F(CutsTest, ManyPlacesThatAreUnlikelyEachAreLikelyTogether) {
+  constexpr std::size_t kEach = 10;
+  HypothesisWorld world(2 * kEach, rng_);
+  Scans all, second;
+  for (std::size_t i = 0; i < kEach; ++i) {
+    second.push_back(kEach + i);
+    if (i + 1 < kEach) {
+      for (const std::size_t of : {0ul, kEach})
+        world.add(of + i, of + i + 1, {world.hypothesis(of + i, of + i + 1, 9)});
+    }
+    for (std::size_t j = kEach; j < 2 * kEach; ++j) world.add(i, j, {world.wrong(-1, rng_)});
+  }
+  for (std::size_t i = 0; i < 2 * kEach; ++i) all.push_back(i);
+  world.add(0, kEach, {world.hypothesis(0, kEach, 3)});
+  const Cut cut = measure_cut(world.graph(), world.truth(all), second);
+  EXPECT_NEAR(cut.support, 3, kOfLogOdds);
+  EXPECT_NEAR(cut.lead(), 3 - std::log1p(100 * std::exp(-1)), 2 * kOfLogOdds) << "not near 3";
 }
 
 // Of two other places, by how much the likelier one has.
@@ -148,6 +171,19 @@ TEST_F(CutsTest, TheBestOtherPlaceCounts) {
   EXPECT_NEAR(cut.other_support, 5, kOfLogOdds);
   const Isometry3d& T = *component.T_reference_scan[2];
   EXPECT_TRUE(testing::is_pose_near(T * Eigen::Translation3d(0, -9, 0), *cut.other_motion * T, kRounding, kRounding));
+  EXPECT_NEAR(cut.lead(), cut.support - std::log(1 + std::exp(3) + std::exp(5) + std::exp(4)), kOfLogOdds);
+}
+
+TEST_F(CutsTest, PlacesOfAnySupportAreWeighed) {
+  Cut cut;
+  cut.support = 2000;
+  cut.other_support = 1500;
+  cut.other_motion.emplace(Isometry3d::Identity());
+  cut.odds_elsewhere = 1e9;
+  EXPECT_DOUBLE_EQ(cut.lead(), 500);
+  cut.other_motion.reset();
+  cut.other_support = 0;
+  EXPECT_NEAR(cut.lead(), 2000 - 9 * std::log(10), 1e-8);
 }
 
 TEST_F(CutsTest, AGroupThatHangsByOneLinkIsACut) {
@@ -209,7 +245,7 @@ TEST_F(CutsTest, AGroupsTwinTurnedByHalfATurnIsItsOtherMotion) {
   const auto cuts = weakest_cuts(world_.graph(), component);
   const Cut* group = find(cuts, {2, 3});
   ASSERT_NE(group, nullptr);
-  EXPECT_NEAR(group->lead(), 0.5, 2 * kOfLogOdds);
+  EXPECT_NEAR(group->lead(), 5 - with_none(4.5), 2 * kOfLogOdds);
   ASSERT_TRUE(group->other_motion);
   EXPECT_NEAR(rotation_angle_rad(group->other_motion->linear()), std::numbers::pi, 1e-6);
   const Isometry3d& T = *component.T_reference_scan[2];
@@ -224,7 +260,7 @@ TEST_F(CutsTest, LinksAcrossThatDoNotHaveTheTwinSpeakForThePoses) {
   world_.add(1, 2, {world_.hypothesis(1, 2, 5), world_.hypothesis(1, 2, 5, turned)});
   add(0, 3, 3);
   const Cut cut = measure_cut(world_.graph(), world_.truth({0, 1, 2, 3}), {2, 3});
-  EXPECT_NEAR(cut.lead(), 3 + options_.log_poses, 2 * kOfLogOdds);
+  EXPECT_NEAR(cut.lead(), 5 + 3 + options_.log_poses - with_none(5), 2 * kOfLogOdds);
 }
 
 TEST_F(CutsTest, TheReferenceByItselfCanBeMeasured) {

@@ -1,6 +1,7 @@
 #include "inference/cuts.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 
@@ -29,11 +30,17 @@ void sort_without_repeats(std::vector<std::vector<std::size_t>>& parts) {
 
 }  // namespace
 
+double Cut::lead() const {
+  const double others = std::exp(-other_support) * (1 + odds_elsewhere) + (other_motion ? 1 : 0);
+  return support - other_support - std::log(others);
+}
+
 Cut measure_cut(const PairGraph& graph, const Component& component, std::vector<std::size_t> moved, double most_lead) {
   const PairsAcross across(graph, component, moved);
   const double support = across.support(Eigen::Isometry3d::Identity());
   const auto elsewhere = across.best_elsewhere(std::max(0.0, support - most_lead));
-  return {std::move(moved), support, elsewhere.motion ? elsewhere.support : 0, elsewhere.motion};
+  const double odds = across.odds_elsewhere(elsewhere.motion);
+  return {std::move(moved), support, elsewhere.motion ? elsewhere.support : 0, elsewhere.motion, odds};
 }
 
 std::vector<std::size_t> frontier(const PairGraph& graph, const Component& component, const Cut& cut) {

@@ -1,6 +1,7 @@
 #include "inference/pairs_across.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
 namespace tcm_icp {
@@ -163,6 +164,20 @@ PairsAcross::Elsewhere PairsAcross::best_elsewhere(double least) const {
     }
   }
   return best;
+}
+
+double PairsAcross::odds_elsewhere(const std::optional<Eigen::Isometry3d>& but) const {
+  const auto is_at = [&](const Hypothesis& h, const Eigen::Isometry3d& motion) {
+    const Pair& p = pairs_[h.pair];
+    const Eigen::Isometry3d T_a_b =
+        pose(p.pair->a).inverse() * (p.moves_b ? motion : motion.inverse()) * pose(p.pair->b);
+    return graph_.same_pose(p.pair->b, T_a_b, h.hypothesis->T_a_b);
+  };
+  double sum = 0;
+  for (const Hypothesis& h : hypotheses_) {
+    if (is_elsewhere(h) && !(but && is_at(h, *but))) sum += std::exp(h.hypothesis->log_odds);
+  }
+  return sum;
 }
 
 double PairsAcross::most_elsewhere() const {

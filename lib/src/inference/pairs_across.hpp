@@ -30,6 +30,10 @@ class PairsAcross {
   /// that is more than `least`. Cost: of the motions, those ask that have enough like them, and those alone.
   Elsewhere best_elsewhere(double least) const;
 
+  /// That one of the hypotheses is right by which a scan leaves its pose, but for those that agree with the motion
+  /// `but`: the sum of their odds. Cost: the hypotheses of the pairs.
+  double odds_elsewhere(const std::optional<Eigen::Isometry3d>& but) const;
+
   /// No less than the support of any motion that leaves no pair at its pose. Cost: the hypotheses of the pairs.
   double most_elsewhere() const;
 
