@@ -20,14 +20,13 @@ struct Cut {
   double other_support = 0;
   /// That motion in the reference's frame, T_new = motion * T_old, where there is one.
   std::optional<Eigen::Isometry3d> other_motion;
-  /// Of all places that hypotheses lead the part to, but for that one, together.
+  /// Of all places that hypotheses of the scans that hold the part lead it to, but for that one, together.
   double odds_elsewhere = 0;
 
   bool moves(std::size_t scan) const { return std::binary_search(moved.begin(), moved.end(), scan); }
 
   /// Log-odds of the poses against all other places and against none at all. One place at most is right: many that are
-  /// unlikely each are likely together, and the more pairs were compared in vain, the likelier it is that a poor one is
-  /// best by chance.
+  /// unlikely each are likely together, and of many pairs that were compared in vain one looks good by chance.
   double lead() const;
 };
 

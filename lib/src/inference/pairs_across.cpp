@@ -166,6 +166,16 @@ PairsAcross::Elsewhere PairsAcross::best_elsewhere(double least) const {
   return best;
 }
 
+std::vector<bool> PairsAcross::scans_that_hold() const {
+  std::vector<bool> out(graph_.num_scans(), false);
+  const Eigen::Isometry3d none = Eigen::Isometry3d::Identity();
+  for (const Hypothesis& h : hypotheses_) {
+    const Pair& p = pairs_[h.pair];
+    if (may_agree(h, none, none) && support_of(p, none).support > 0) out[p.pair->a] = out[p.pair->b] = true;
+  }
+  return out;
+}
+
 double PairsAcross::odds_elsewhere(const std::optional<Eigen::Isometry3d>& but) const {
   const auto is_at = [&](const Hypothesis& h, const Eigen::Isometry3d& motion) {
     const Pair& p = pairs_[h.pair];
@@ -173,8 +183,11 @@ double PairsAcross::odds_elsewhere(const std::optional<Eigen::Isometry3d>& but) 
         pose(p.pair->a).inverse() * (p.moves_b ? motion : motion.inverse()) * pose(p.pair->b);
     return graph_.same_pose(p.pair->b, T_a_b, h.hypothesis->T_a_b);
   };
+  const std::vector<bool> holds = scans_that_hold();
   double sum = 0;
   for (const Hypothesis& h : hypotheses_) {
+    const ComparedPair& pair = *pairs_[h.pair].pair;
+    if (!holds[pair.a] && !holds[pair.b]) continue;
     if (is_elsewhere(h) && !(but && is_at(h, *but))) sum += std::exp(h.hypothesis->log_odds);
   }
   return sum;

@@ -31,7 +31,8 @@ class PairsAcross {
   Elsewhere best_elsewhere(double least) const;
 
   /// That one of the hypotheses is right by which a scan leaves its pose, but for those that agree with the motion
-  /// `but`: the sum of their odds. Cost: the hypotheses of the pairs.
+  /// `but`: the sum of their odds. Of the scans that pairs hold across: how many others either side has, and that were
+  /// compared in vain, says nothing. Cost: the hypotheses of the pairs.
   double odds_elsewhere(const std::optional<Eigen::Isometry3d>& but) const;
 
   /// No less than the support of any motion that leaves no pair at its pose. Cost: the hypotheses of the pairs.
@@ -59,6 +60,8 @@ class PairsAcross {
   const Eigen::Isometry3d& pose(std::size_t scan) const { return *component_.T_reference_scan[scan]; }
   Eigen::Isometry3d motion_by(const Hypothesis& h) const;
   bool is_elsewhere(const Hypothesis& h) const;
+  // Those of pairs that support the part where it is.
+  std::vector<bool> scans_that_hold() const;
   MotionCells cells(const std::vector<Eigen::Isometry3d>& motions) const;
   // Those whose motions may be supported by more than `least`, the most promising first.
   std::vector<CellPromise> promises(const MotionCells& cells, double least) const;
