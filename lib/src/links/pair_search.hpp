@@ -56,13 +56,13 @@ class PairSearch {
   /// method, and a scan.
   bool extend(const std::vector<bool>& wanted, const std::vector<std::size_t>& groups, HypothesisSet& set);
 
-  /// How many scans try_between() can be asked for with no more alignments than first partners took; 0 in small sets,
-  /// where every pair may be tried in the end.
+  /// How many scans try_between() can be asked for with no more pairs than first partners are; 0 in small sets, where
+  /// every pair may be tried in the end.
   std::size_t most_between() const;
 
-  /// Tries pairs of these scans of different groups by all methods: each scan with the six that features tell overlap
-  /// it most. Hypotheses go to the set. False where none was left. Cost: an alignment of features for each pair, and
-  /// extend()'s for those that are tried.
+  /// Tries pairs of these scans that lie between groups by all methods: each scan with the six that its height map is
+  /// most like and the six whose features align best. Hypotheses go to the set. False where no pair was left. Cost:
+  /// height maps and features of all those pairs, and extend()'s for the ones that are tried.
   bool try_between(const std::vector<std::size_t>& some, const std::vector<std::size_t>& groups, HypothesisSet& set);
 
  private:
