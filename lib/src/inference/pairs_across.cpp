@@ -171,7 +171,8 @@ std::vector<bool> PairsAcross::scans_that_hold() const {
   const Eigen::Isometry3d none = Eigen::Isometry3d::Identity();
   for (const Hypothesis& h : hypotheses_) {
     const Pair& p = pairs_[h.pair];
-    if (may_agree(h, none, none) && support_of(p, none).support > 0) out[p.pair->a] = out[p.pair->b] = true;
+    const bool known = out[p.pair->a] && out[p.pair->b];
+    if (!known && may_agree(h, none, none) && support_of(p, none).support > 0) out[p.pair->a] = out[p.pair->b] = true;
   }
   return out;
 }

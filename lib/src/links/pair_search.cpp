@@ -375,6 +375,14 @@ struct PairSearch::Impl {
     return steps != nullptr ? candidates_once(*steps, key(), search) : search();
   }
 
+  /// Pairs that were tried by `before` by the method after it; false where that is left out.
+  bool try_next(Tried before, const ScanPairs& pairs, bool is_later, HypothesisSet& set) {
+    const bool is_used = uses(next(before));
+    if (is_used) fit(pairs, candidates(before, pairs), is_later, set);
+    for (const auto& pair : pairs) tried[pair] = next(before);
+    return is_used;
+  }
+
   /// By the method after `before`.
   std::vector<std::vector<PoseCandidate>> candidates(Tried before, const ScanPairs& pairs) {
     switch (before) {
@@ -556,11 +564,11 @@ std::size_t PairSearch::most_between() const {
 bool PairSearch::try_between(const std::vector<std::size_t>& some, const std::vector<std::size_t>& groups,
                              HypothesisSet& set) {
   const ScanPairs pairs = impl_->pairs_between(some, groups);
+  if (pairs.empty()) return false;
   for (const Tried before : {Tried::kNothing, Tried::kHeightMaps, Tried::kFeatures}) {
-    if (impl_->uses(next(before))) impl_->fit(pairs, impl_->candidates(before, pairs), true, set);
-    for (const auto& pair : pairs) impl_->tried[pair] = next(before);
+    impl_->try_next(before, pairs, true, set);
   }
-  return !pairs.empty();
+  return true;
 }
 
 bool PairSearch::extend(const std::vector<bool>& wanted, const std::vector<std::size_t>& groups, HypothesisSet& set) {
@@ -571,9 +579,7 @@ bool PairSearch::extend(const std::vector<bool>& wanted, const std::vector<std::
     for (const Tried before : {Tried::kNothing, Tried::kHeightMaps, Tried::kFeatures}) {
       const ScanPairs& now = pairs[before];
       if (now.empty()) continue;
-      const bool is_used = impl_->uses(next(before));
-      if (is_used) impl_->fit(now, impl_->candidates(before, now), is_later, set);
-      for (const auto& pair : now) impl_->tried[pair] = next(before);
+      const bool is_used = impl_->try_next(before, now, is_later, set);
       any = any || is_used;
       if (is_used && !impl_->all_methods_at_once(wanted)) break;
       ScanPairs& later = pairs[next(before)];

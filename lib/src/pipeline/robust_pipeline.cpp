@@ -112,14 +112,8 @@ class RobustPipeline {
     std::iota(groups.begin(), groups.end(), std::size_t{0});
     while (search.extend(wanted, groups, *hypotheses_)) {
       Inferred now = infer_with_implied(search);
+      join_groups(search, now);
       groups = groups_of(now);
-      while (search.try_between(margins_of_groups(now.graph, now.components, groups, search.most_between()), groups,
-                                *hypotheses_)) {
-        const std::size_t num_before = num_groups(groups);
-        now = infer_with_implied(search);
-        groups = groups_of(now);
-        if (num_groups(groups) >= num_before) break;
-      }
       wanted = without_clear_place(now);
       in_.context.debug(std::to_string(std::count(wanted.begin(), wanted.end(), true)) + " of " +
                         std::to_string(size()) + " scans have no clear place; " +
@@ -137,6 +131,19 @@ class RobustPipeline {
       now = infer(1);
     }
     return now;
+  }
+
+  // By what their margins have in common, as long as that leaves fewer of them.
+  void join_groups(PairSearch& search, Inferred& now) {
+    const std::size_t most = search.most_between();
+    if (most == 0) return;
+    for (std::vector<std::size_t> groups = groups_of(now);;) {
+      if (!search.try_between(margins_of_groups(now.graph, now.components, groups, most), groups, *hypotheses_)) return;
+      now = infer_with_implied(search);
+      std::vector<std::size_t> joined = groups_of(now);
+      if (num_groups(joined) >= num_groups(groups)) return;
+      groups = std::move(joined);
+    }
   }
 
   std::vector<std::size_t> groups_of(const Inferred& now) const {
