@@ -35,12 +35,14 @@ Eigen::Isometry3d PairsAcross::motion_by(const Hypothesis& h) const {
   return p.moves_b ? T : T.inverse();
 }
 
-bool PairsAcross::is_elsewhere(const Hypothesis& h) const {
+bool PairsAcross::is_at(const Hypothesis& h, const Eigen::Isometry3d& motion) const {
   const Pair& p = pairs_[h.pair];
   const Eigen::Isometry3d &T_a = pose(p.pair->a), &T_b = pose(p.pair->b), &T_a_b = h.hypothesis->T_a_b;
-  return p.moves_b ? !graph_.same_pose(p.pair->b, T_b, T_a * T_a_b)
-                   : !graph_.same_pose(p.pair->a, T_a, T_b * T_a_b.inverse());
+  return p.moves_b ? graph_.same_pose(p.pair->b, motion * T_b, T_a * T_a_b)
+                   : graph_.same_pose(p.pair->a, motion * T_a, T_b * T_a_b.inverse());
 }
+
+bool PairsAcross::is_elsewhere(const Hypothesis& h) const { return !is_at(h, Eigen::Isometry3d::Identity()); }
 
 SupportAcross PairsAcross::support_of(const Pair& p, const Eigen::Isometry3d& motion) const {
   const Eigen::Isometry3d &T_a = pose(p.pair->a), &T_b = pose(p.pair->b);
@@ -178,12 +180,6 @@ std::vector<bool> PairsAcross::scans_that_hold() const {
 }
 
 double PairsAcross::odds_elsewhere(const std::optional<Eigen::Isometry3d>& but) const {
-  const auto is_at = [&](const Hypothesis& h, const Eigen::Isometry3d& motion) {
-    const Pair& p = pairs_[h.pair];
-    const Eigen::Isometry3d T_a_b =
-        pose(p.pair->a).inverse() * (p.moves_b ? motion : motion.inverse()) * pose(p.pair->b);
-    return graph_.same_pose(p.pair->b, T_a_b, h.hypothesis->T_a_b);
-  };
   const std::vector<bool> holds = scans_that_hold();
   double sum = 0;
   for (const Hypothesis& h : hypotheses_) {

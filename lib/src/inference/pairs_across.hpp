@@ -59,6 +59,8 @@ class PairsAcross {
 
   const Eigen::Isometry3d& pose(std::size_t scan) const { return *component_.T_reference_scan[scan]; }
   Eigen::Isometry3d motion_by(const Hypothesis& h) const;
+  // Whether `h` is of the place that `motion` takes the part to.
+  bool is_at(const Hypothesis& h, const Eigen::Isometry3d& motion) const;
   bool is_elsewhere(const Hypothesis& h) const;
   // Those of pairs that support the part where it is.
   std::vector<bool> scans_that_hold() const;

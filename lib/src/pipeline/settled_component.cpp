@@ -56,6 +56,8 @@ class Settling {
       // Where scans have left, what they said of the others is not in the likelihood any more: a place that is likelier
       // now was less likely by all evidence. It counts against the lead.
       if (is_whole) adjust_likelier();
+      // Before anything is judged: a decision is about where a scan lies to the reference.
+      if (options_.reference.empty()) choose_best_reference();
       measure();
       const std::vector<std::size_t> dropped = decide_members();
       context_.debug(std::to_string(dropped.size()) + " of " + std::to_string(out_.component.size()) +
@@ -64,7 +66,6 @@ class Settling {
       for (const std::size_t i : dropped) out_.component.T_reference_scan[i].reset();
       if (!out_.component.has(out_.component.reference)) choose_another_reference();
     }
-    if (options_.reference.empty()) choose_best_reference();
     return std::move(out_);
   }
 
@@ -314,8 +315,6 @@ class Settling {
     const std::size_t best = choose_reference(adjacency);
     if (out_.component.has(best) && adjacency[best].size() > adjacency[out_.component.reference].size()) {
       change_reference(out_.component, best);
-      measure_uncertainty(scans_, out_.pairs, best, resolutions_, poses(), context_.num_threads, out_.uncertainty,
-                          out_.links);
     }
   }
 

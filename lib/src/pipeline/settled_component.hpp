@@ -31,7 +31,7 @@ struct SettledComponent {
 /// Adjusts all poses jointly, measures and decides, and takes out what is least sure, one scan at a time, or a group
 /// whose place is ambiguous as a whole, because a wrong neighbour spoils what is measured of right ones; again until
 /// all that are left pass. The reference is judged like the others; where the user named none, the member with the most
-/// overlapping pairs becomes it.
+/// overlapping pairs becomes it before anything is judged, for a decision is about where a scan lies to the reference.
 /// @param steps  has the adjustments that were done before; nullptr: nothing is kept
 SettledComponent settle(const std::vector<PreparedScan>& scans, const HypothesisSet& hypotheses, const PairGraph& graph,
                         const Resolutions& resolutions, const PipelineOptions& options, const RunContext& context,
