@@ -199,11 +199,15 @@ TEST_F(SettledComponentTest, TheScanWithTheMostLinksBecomesTheReference) {
   const SettledComponent named = settled();
   ASSERT_EQ(named.pairs, (ScanPairs{{0, 2}, {2, 4}})) << "a row, not a ring";
   EXPECT_EQ(named.component.reference, 0u) << "the user's choice";
+  EXPECT_EQ(named.measurements[2]->num_moved, 2u) << "as seen from the first, with what hangs on it";
   options_.reference.clear();
   const SettledComponent chosen = settled();
   EXPECT_EQ(chosen.component.reference, 2u);
   EXPECT_EQ(chosen.component.members(), (Scans{0, 2, 4}));
   EXPECT_TRUE(chosen.component.T_reference_scan[2]->isApprox(Isometry3d::Identity(), 0));
+  // Decisions are about where scans lie to the reference that is reported.
+  EXPECT_EQ(chosen.measurements[2]->num_moved, 1u);
+  EXPECT_GT(chosen.measurements[2]->lead, named.measurements[2]->lead + 1) << "both pairs hold it";
   for (const std::size_t i : {0u, 4u}) EXPECT_LE(error_m(chosen.component, i), 0.2 * s_.resolutions.fine_m) << i;
 }
 
