@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Fits the models that tell how likely a link and a scan's place are right, to simulated scans that anyone can make.
 
-  calibrate.py --out DIR [--exe TCM_ICP] [--seeds 1 2 3] [--jobs 2] [--only links|scans] [--check] [--dry-run]
+  calibrate.py --out DIR [--exe TCM_ICP] [--seeds 1 2 3] [--jobs 2] [--only links|scans|scatter] [--check] [--dry-run]
 
 Makes sets of every simulated scene with several sensors (calibration/sets.py), as they are, thinned, cropped, cluttered,
 a few scans alone, with passers-by, a mirrored scan and scans of other scenes; registers each with `--confidence 0`, so that
@@ -9,6 +9,8 @@ wrong places are reported, too; fits, and writes lib/src/links/link_model.inc, l
 docs/results/calibration.csv and docs/images/reliability.png. Figures are of scenes left out of the fit, one at a time.
 Decisions follow from links: after a change of the link model build the program and run again with --only scans, which leaves
 the link model as it is. Figures and diagram are of both in either case.
+--only scatter writes docs/results/implied-hypotheses.csv, what fits show that start from right poses and from wrong ones, and
+nothing else: figures in inference_options.hpp are set by it.
 --check fits nothing: it writes docs/results/decisions-unseen.csv, how the probabilities hold that the program states, which is a
 figure of its models where no fit has seen the seeds.
 What DIR has already is used again. Needs numpy and matplotlib; about seven seconds of processor time a set.
@@ -28,7 +30,7 @@ try:
 except ImportError:
     sys.exit("calibrate.py: numpy is missing: apt install python3-numpy, and run it with /usr/bin/python3")
 
-from calibration import labels, logistic, sets, softmin
+from calibration import labels, logistic, scatter, sets, softmin
 from paper.provenance import add_tables, origin
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -139,6 +141,16 @@ def fit_scans(options, folder, results):
     return [figures("scan", logistic.held_out(model, X, y, scene, name_of_set), y)]
 
 
+def tell_scatter(options, folder, results):
+    """What InferenceOptions::firm_left, loose_left and log_slid are set by."""
+    X, y, _, _ = labels.load(folder, results, scatter.implied)
+    table = scatter.table(X, y)
+    scatter.write(ROOT / "docs/results/implied-hypotheses.csv", table)
+    add_tables(ROOT / "docs/results", {"implied-hypotheses": origin(options.exe)})
+    for row in table:
+        print(*row, sep=", ")
+
+
 def check(options, folder, results):
     """How many of the decisions that the program states at a probability and more are right."""
     stated, y, _, name_of_set = labels.load(folder, results, labels.probabilities)
@@ -183,7 +195,7 @@ def main():
     parser.add_argument("--exe", default=str(ROOT / "build/release/app/tcm-icp"))
     parser.add_argument("--seeds", type=int, nargs="+", default=[1, 2, 3])
     parser.add_argument("--jobs", type=int, default=2)
-    parser.add_argument("--only", choices=("links", "scans"), help="the model that is written")
+    parser.add_argument("--only", choices=("links", "scans", "scatter"), help="what is written")
     parser.add_argument("--check", action="store_true", help="fit nothing: judge what the program states")
     parser.add_argument("--dry-run", action="store_true", help="say how many sets there are, and stop")
     options = parser.parse_args()
@@ -196,6 +208,9 @@ def main():
     results = register_all(options, folder)
     if options.check:
         check(options, folder, results)
+        return
+    if options.only == "scatter":
+        tell_scatter(options, folder, results)
         return
     tables = fit_links(options, folder, results) + fit_scans(options, folder, results)
     for table, _ in tables:

@@ -59,7 +59,11 @@ class Set:
 
     def error(self, a, b, T_a_b):
         E = np.linalg.inv(np.linalg.inv(self.pose[a]) @ self.pose[b]) @ T_a_b
-        return rms(E, self.points(b)), angle_deg(E[:3, :3])
+        return self.rms(b, E), angle_deg(E[:3, :3])
+
+    def rms(self, file, motion):
+        """How far [m] the motion moves the points of a scan."""
+        return rms(motion, self.points(file))
 
 
 def hypotheses(data, scene, name, rows):

@@ -88,6 +88,48 @@ TEST_F(ComparedPairsTest, AFitThatStartedFromThesePosesSaysLess) {
   EXPECT_NEAR(support(0) - one, 5 + options_.log_poses - options_.log_implied, 0.01);
 }
 
+// Fits from the right pose end elsewhere where nothing holds them: that little shows there says little against it.
+TEST_F(ComparedPairsTest, AFitThatSlidAwayCountsLittleAgainst) {
+  const auto says = [&](double left, double log_odds, double off_m, bool implied = true) {
+    HypothesisWorld world(2, rng_);
+    PoseHypothesis h = world.aside(0, 1, log_odds, off_m);
+    h.implied = implied;
+    h.weakest_left = left;
+    world.add(0, 1, {h});
+    const PairGraph graph = world.graph();
+    return graph.support(graph.pairs()[0], Eigen::Isometry3d::Identity(), world.T_target_source(0, 1));
+  };
+  const double firm = options_.firm_left, loose = options_.loose_left, near_m = kSame_m / 8, far_m = 3 * near_m;
+  ASSERT_LT(options_.log_missed + options_.log_slid * std::log(3), 0);
+  EXPECT_NEAR(says(firm, -20, far_m), options_.log_missed, 1e-6);
+  EXPECT_NEAR(says(loose, -20, near_m / 2), options_.log_missed, 1e-6) << "it did not slide";
+  EXPECT_NEAR(says(loose, -20, far_m), options_.log_missed + options_.log_slid * std::log(3), 1e-6);
+  EXPECT_NEAR(says((firm + loose) / 2, -20, far_m), options_.log_missed + options_.log_slid * std::log(3) / 2, 1e-6);
+  EXPECT_NEAR(says(2, -20, far_m), says(loose, -20, far_m), 1e-9);
+  EXPECT_NEAR(says(2, -20, 0.99 * kSame_m), 0, 1e-6) << "never for it";
+  EXPECT_NEAR(says(loose, 6, far_m), says(firm, 6, far_m), 0.1) << "what it shows counts as it did";
+  EXPECT_NEAR(says(2, 1, far_m, false), says(0, 1, far_m, false), 1e-9) << "of a search";
+}
+
+// Moves that no bound on them reaches are never asked.
+TEST_F(ComparedPairsTest, NoPosesSupportAHypothesisByMoreThanItsMost) {
+  for (const double log_odds : {-4.0, -0.5, 0.0, 2.0}) {
+    for (const double left : {0.3, 0.7, 1.5}) {
+      HypothesisWorld world(2, rng_);
+      PoseHypothesis h = world.hypothesis(0, 1, log_odds);
+      h.implied = true;
+      h.weakest_left = left;
+      world.add(0, 1, {h});
+      const PairGraph graph = world.graph();
+      for (double off_m = 0; off_m < kSame_m; off_m += 0.05) {
+        const Eigen::Isometry3d T_b = world.T_target_source(0, 1) * Eigen::Translation3d(0, off_m, 0);
+        EXPECT_LE(graph.support(graph.pairs()[0], Eigen::Isometry3d::Identity(), T_b),
+                  graph.pairs()[0].hypotheses[0].most_support + 1e-9);
+      }
+    }
+  }
+}
+
 // At the right pose, too, what hardly overlaps shows nothing.
 TEST_F(ComparedPairsTest, AFitOfWhatHardlyOverlapsCountsLittleForOrAgainst) {
   const auto says = [&](double overlap, double log_odds) {

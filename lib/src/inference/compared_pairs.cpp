@@ -47,7 +47,10 @@ PairGraph::PairGraph(std::vector<ComparedPair> pairs, std::vector<PointMoments> 
     for (auto& h : pair.hypotheses) {
       h.mean = h.T_a_b * moments_[pair.b].mean;
       h.telling = telling(h.overlap);
-      h.most_support = h.as_found().says(odds_found(h, 0));
+      if (h.implied) h.slid = slid(h.weakest_left);
+      const Telling found = h.as_found(0);
+      const double odds = odds_found(h, 0);
+      h.most_support = h.slid > 0 ? std::log1p(found.shows * odds) : found.says(odds);
     }
   }
   std::erase_if(pairs_, [](const auto& pair) { return pair.hypotheses.empty(); });
@@ -72,16 +75,16 @@ void PairGraph::for_agreeing(const ComparedPair& pair, const Eigen::Isometry3d& 
     const double apart_m = rms_displacement(T_b.inverse() * (T_a * h.T_a_b), moments_[pair.b]);
     if (apart_m >= same_m_) continue;
     const double beyond_m = std::max(apart_m, same_m_ / 8);
-    visit(h, beyond_m, options_.log_spread * std::log(8 * beyond_m / same_m_));
+    visit(h, beyond_m, std::log(8 * beyond_m / same_m_));
   }
 }
 
 Agreement PairGraph::agreement(const ComparedPair& pair, const Eigen::Isometry3d& T_a,
                                const Eigen::Isometry3d& T_b) const {
   Agreement best;
-  for_agreeing(pair, T_a, T_b, [&](const PoseHypothesis& h, double beyond_m, double near) {
-    const Telling found = h.as_found();
-    const double odds = odds_found(h, near), says = found.says(odds);
+  for_agreeing(pair, T_a, T_b, [&](const PoseHypothesis& h, double beyond_m, double farther) {
+    const Telling found = h.as_found(farther);
+    const double odds = odds_found(h, farther), says = found.says(odds);
     if (best.hypothesis != nullptr && says <= best.support) return;
     const double shown = found.shows * odds;
     best = {says, &h, shown / (found.missed + shown) * options_.log_spread / (beyond_m * beyond_m)};
@@ -92,10 +95,11 @@ Agreement PairGraph::agreement(const ComparedPair& pair, const Eigen::Isometry3d
 SupportAcross PairGraph::support_across(const ComparedPair& pair, const Eigen::Isometry3d& T_a,
                                         const Eigen::Isometry3d& T_b, double taught_by_others) const {
   std::optional<SupportAcross> most;
-  for_agreeing(pair, T_a, T_b, [&](const PoseHypothesis& h, double, double near) {
-    const double says = h.as_found().says(odds_found(h, near));
+  for_agreeing(pair, T_a, T_b, [&](const PoseHypothesis& h, double, double farther) {
+    const double says = h.as_found(farther).says(odds_found(h, farther));
     const double log_odds = std::min(h.log_odds - std::max(0.0, h.taught - taught_by_others), options_.most_log_odds);
-    const double says_of_twins = h.telling.says(std::exp(log_odds + options_.log_poses - options_.log_implied - near));
+    const double chance = options_.log_poses - options_.log_implied - options_.log_spread * farther;
+    const double says_of_twins = h.as_implied(farther).says(std::exp(log_odds + chance));
     if (!most) most = {says, says_of_twins};
     most = {std::max(most->support, says), std::max(most->against_twins, says_of_twins)};
   });
@@ -119,8 +123,8 @@ double PairGraph::constant_without(const std::vector<std::size_t>& pairs) const 
   return set_constant(others, options_.set_spread);
 }
 
-double PairGraph::odds_found(const PoseHypothesis& h, double near) const {
-  const double chance = options_.log_poses - (h.implied ? options_.log_implied : 0) - near;
+double PairGraph::odds_found(const PoseHypothesis& h, double farther) const {
+  const double chance = options_.log_poses - (h.implied ? options_.log_implied : 0) - options_.log_spread * farther;
   return std::exp(std::min(h.log_odds, options_.most_log_odds) + chance);
 }
 
@@ -128,6 +132,11 @@ Telling PairGraph::telling(double overlap) const {
   const double log_missed = options_.log_missed * std::min(1.0, overlap / options_.telling_overlap);
   if (options_.log_missed == 0) return {1, 1};
   return {std::exp(log_missed), std::expm1(log_missed) / std::expm1(options_.log_missed)};
+}
+
+double PairGraph::slid(double weakest_left) const {
+  const double loose = (weakest_left - options_.firm_left) / (options_.loose_left - options_.firm_left);
+  return options_.log_slid * std::clamp(loose, 0.0, 1.0);
 }
 
 double PairGraph::support_of(std::size_t scan, const Eigen::Isometry3d& T, const Component& component) const {

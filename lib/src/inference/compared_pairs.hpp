@@ -2,6 +2,7 @@
 // What inference starts from: pairs of scans that were compared, and the poses each of them may have.
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -32,13 +33,20 @@ struct PoseHypothesis {
   /// Its fit started from where other pairs put the scans: that it lies there is no coincidence.
   bool implied = false;
   double overlap = 1;  ///< of the pair there
-  double taught = 0;   ///< of the log-odds: the set's constant, as far as `teachers` have taught it
+  /// Of the pair's agreement there, after a slide in its weakest direction: the more, the less holds the pose.
+  double weakest_left = 0;
+  double taught = 0;  ///< of the log-odds: the set's constant, as far as `teachers` have taught it
   // PairGraph's
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();  ///< of b's points, in a's frame
   Telling telling = {};                            ///< were it implied: the less, the less overlaps
-  double most_support = 0;                         ///< for poses that agree with it exactly
+  double slid = 0;                                 ///< of log_slid, if it is implied: the more, the less holds it
+  double most_support = 0;                         ///< for any poses
 
-  Telling as_found() const { return implied ? telling : Telling{}; }
+  /// @param farther  logarithm of how many times farther off the poses are than what is near
+  Telling as_implied(double farther) const {
+    return slid > 0 ? Telling{std::min(1.0, telling.missed * std::exp(slid * farther)), telling.shows} : telling;
+  }
+  Telling as_found(double farther) const { return implied ? as_implied(farther) : Telling{}; }
 };
 
 struct ComparedPair {
@@ -118,7 +126,7 @@ class PairGraph {
   /// where it is implied. The 1 is of a search that missed the right pose. A fit that starts there misses it rarely: an
   /// implied hypothesis of little odds counts against the poses, by log_missed at the most; by less where less than
   /// telling_overlap of the pair overlaps there, for the right pose seldom shows there either, and what it shows
-  /// counts for less.
+  /// counts for less; and by less where it ended farther off and little holds it (log_slid).
   double support(const ComparedPair& pair, const Eigen::Isometry3d& T_a, const Eigen::Isometry3d& T_b) const {
     return agreement(pair, T_a, T_b).support;
   }
@@ -149,14 +157,15 @@ class PairGraph {
                  std::vector<Eigen::Isometry3d>& known) const;
 
  private:
-  // Visits the hypotheses that agree with the poses, with their distance beyond which it counts [m] and by how much
-  // less likely that is of a right one.
+  // Visits the hypotheses that agree with the poses, with their distance [m], what is near at least, and the logarithm
+  // of how many times as far that is.
   template <typename Visit>
   void for_agreeing(const ComparedPair& pair, const Eigen::Isometry3d& T_a, const Eigen::Isometry3d& T_b,
                     Visit visit) const;
   // What it says for such poses, before what a search may have missed.
-  double odds_found(const PoseHypothesis& h, double near) const;
+  double odds_found(const PoseHypothesis& h, double farther) const;
   Telling telling(double overlap) const;
+  double slid(double weakest_left) const;
 
   std::vector<ComparedPair> pairs_;
   std::vector<PointMoments> moments_;

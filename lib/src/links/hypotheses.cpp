@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "inference/set_constant.hpp"
+#include "links/feature_scales.hpp"
 #include "links/link_likelihood.hpp"
 
 namespace tcm_icp {
@@ -119,7 +120,9 @@ PairGraph HypothesisSet::graph(const std::vector<bool>& open, const InferenceOpt
     ComparedPair compared{pair.first, pair.second, {}, {}};
     for (const auto& h : hypotheses) {
       const double taught = h.is_later ? 0 : reference_.constant;
-      compared.hypotheses.push_back({h.T_a_b, h.log_odds, is_implied(h), h.measurements.evidence.overlap, taught});
+      const AlignmentEvidence& evidence = h.measurements.evidence;
+      compared.hypotheses.push_back(
+          {h.T_a_b, h.log_odds, is_implied(h), evidence.overlap, weakest_left(evidence), taught});
     }
     if (const auto taught = teachers_.find(pair); taught != teachers_.end()) compared.teachers = taught->second;
     pairs.push_back(std::move(compared));

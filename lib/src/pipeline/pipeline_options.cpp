@@ -49,6 +49,9 @@ void InferenceOptions::validate() const {
   require(set_spread >= 0, "inference set_spread must be at least 0", set_spread);
   require(log_missed <= 0, "inference log_missed must be at most 0", log_missed);
   require(telling_overlap > 0, "inference telling_overlap must be positive", telling_overlap);
+  require(firm_left >= 0 && firm_left <= 1, "inference firm_left must be between 0 and 1", firm_left);
+  require(loose_left > firm_left, "inference loose_left must be above firm_left", loose_left);
+  require(log_slid >= 0, "inference log_slid must be at least 0", log_slid);
   require(log_twins >= 0, "inference log_twins must be at least 0", log_twins);
   require(log_spread >= 0, "inference log_spread must be at least 0", log_spread);
   require(most_log_odds > 0, "inference most_log_odds must be above 0", most_log_odds);

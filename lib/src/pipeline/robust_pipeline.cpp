@@ -366,6 +366,8 @@ class RobustPipeline {
         record.b = b;
         record.T_a_b = for_raw_coordinates(h.T_a_b, in_.sampled[a].scan, in_.sampled[b].scan);
         record.candidate = h.candidate;
+        record.candidate.T_target_source =
+            for_raw_coordinates(h.candidate.T_target_source, in_.sampled[a].scan, in_.sampled[b].scan);
         record.evidence = h.measurements.evidence;
         record.free_space = h.measurements.free_space;
         record.is_later = h.is_later;

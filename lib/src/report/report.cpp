@@ -229,18 +229,22 @@ Json report_object(const PipelineResult& result, const PipelineOptions& options,
   report["misclosures"] = loops_json(result);
   report["hypotheses"] = Json::array();
   for (const auto& h : result.hypotheses) {
-    report["hypotheses"].push_back({{"a", result.scans[h.a].file},
-                                    {"b", result.scans[h.b].file},
-                                    {"pose_of_b_in_a", to_json(Eigen::MatrixXd(h.T_a_b.matrix()))},
-                                    {"method", to_string(h.candidate.method)},
-                                    {"coarse_score", number(h.candidate.score)},
-                                    {"coarse_margin", number(h.candidate.margin)},
-                                    {"later", h.is_later},
-                                    {"log_odds", h.log_odds},
-                                    {"fate", to_string(h.status)},
-                                    {"features", h.features},
-                                    {"evidence", to_json(h.evidence)},
-                                    {"free_space", to_json(h.free_space)}});
+    Json entry{{"a", result.scans[h.a].file},
+               {"b", result.scans[h.b].file},
+               {"pose_of_b_in_a", to_json(Eigen::MatrixXd(h.T_a_b.matrix()))},
+               {"method", to_string(h.candidate.method)},
+               {"coarse_score", number(h.candidate.score)},
+               {"coarse_margin", number(h.candidate.margin)},
+               {"later", h.is_later},
+               {"log_odds", h.log_odds},
+               {"fate", to_string(h.status)},
+               {"features", h.features},
+               {"evidence", to_json(h.evidence)},
+               {"free_space", to_json(h.free_space)}};
+    if (h.candidate.method == CoarseMethod::kImplied) {
+      entry["asked_at"] = to_json(Eigen::MatrixXd(h.candidate.T_target_source.matrix()));
+    }
+    report["hypotheses"].push_back(std::move(entry));
   }
   for (const auto& s : result.stages) {
     report["stages"].push_back({{"name", s.name}, {"seconds", s.seconds}, {"peak_memory_mb", s.peak_memory_mb}});

@@ -11,6 +11,12 @@ struct InferenceOptions {
   double log_missed = -1.5;  ///< <= 0; logarithm of how often a fit that starts at the right pose shows nothing
   /// > 0; of an implied hypothesis, from which on that is so: what overlaps less shows less, right or wrong.
   double telling_overlap = 0.2;
+  /// Of the agreement that a slide leaves: up to where a pair holds its pose, and from where on nothing holds it.
+  double firm_left = 0.55;   ///< 0..1
+  double loose_left = 0.85;  ///< > firm_left
+  /// >= 0; of an implied hypothesis that nothing holds: by how much less it counts against poses that it is e times
+  /// farther from. Fits slide away from right poses, too.
+  double log_slid = 0.8;
   /// >= 0; logarithm of by how much rarer places are at which all pairs look as they do at the right one.
   double log_twins = 3;
   double log_spread = 3;     ///< >= 0; by how much less it says of poses that it is e times farther from

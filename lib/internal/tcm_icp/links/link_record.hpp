@@ -41,7 +41,7 @@ std::string_view to_string(HypothesisStatus status);
 struct LinkHypothesisRecord {
   std::size_t a = 0, b = 0;                                 ///< by their places in the list
   Eigen::Isometry3d T_a_b = Eigen::Isometry3d::Identity();  ///< for raw coordinates
-  PoseCandidate candidate;                                  ///< the coarse pose it came from; local frames
+  PoseCandidate candidate;                                  ///< the coarse pose it came from, for raw coordinates
   AlignmentEvidence evidence;                               ///< of the pair alone
   FreeSpaceEvidence free_space;
   bool is_later = false;    ///< found for a scan that the first search left without a clear place
