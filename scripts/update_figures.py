@@ -15,7 +15,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 RESULTS = ROOT / "docs" / "results"
 PAGES = ("README.md", "docs/results.md", "docs/failure_modes.md", "docs/comparison.md", "docs/performance.md",
-         "docs/cluster.md", "docs/decisions/0006-verification.md")
+         "docs/cluster.md", "docs/decisions/0006-verification.md", "docs/decisions/0013-inference.md")
 TABLE = re.compile(r"^(?P<mark><!-- figures: (?P<file>\S+)(?: (?P<criterion>[^\n]+))? -->\n)(?P<table>(?:\|[^\n]*\n)+)", re.M)
 
 
