@@ -111,7 +111,7 @@ TEST_F(ComparedPairsTest, AFitThatSlidAwayCountsLittleAgainst) {
   EXPECT_NEAR(says(2, 1, far_m, false), says(0, 1, far_m, false), 1e-9) << "of a search";
 }
 
-// Moves that no bound on them reaches are never asked.
+// By it places are left out that cannot be the best.
 TEST_F(ComparedPairsTest, NoPosesSupportAHypothesisByMoreThanItsMost) {
   for (const double log_odds : {-4.0, -0.5, 0.0, 2.0}) {
     for (const double left : {0.3, 0.7, 1.5}) {
