@@ -141,14 +141,19 @@ def fit_scans(options, folder, results):
     return [figures("scan", logistic.held_out(model, X, y, scene, name_of_set), y)]
 
 
+def publish(options, name, rows):
+    """A table of docs/results, with its origin, and on the terminal."""
+    with open(ROOT / f"docs/results/{name}.csv", "w", newline="") as f:
+        csv.writer(f).writerows(rows)
+    add_tables(ROOT / "docs/results", {name: origin(options.exe)})
+    for row in rows:
+        print(*row, sep=", ")
+
+
 def tell_scatter(options, folder, results):
     """What InferenceOptions::firm_left, loose_left and log_slid are set by."""
     X, y, _, _ = labels.load(folder, results, scatter.implied)
-    table = scatter.table(X, y)
-    scatter.write(ROOT / "docs/results/implied-hypotheses.csv", table)
-    add_tables(ROOT / "docs/results", {"implied-hypotheses": origin(options.exe)})
-    for row in table:
-        print(*row, sep=", ")
+    publish(options, "implied-hypotheses", scatter.table(X, y))
 
 
 def check(options, folder, results):
@@ -161,11 +166,7 @@ def check(options, folder, results):
         passes = p >= least
         right = int(y[passes].sum())
         rows.append((least, int(passes.sum()), right, int(passes.sum()) - right, round(100 * right / y.sum(), 1)))
-    with open(ROOT / "docs/results/decisions-unseen.csv", "w", newline="") as f:
-        csv.writer(f).writerows(rows)
-    add_tables(ROOT / "docs/results", {"decisions-unseen": origin(options.exe)})
-    for row in rows:
-        print(*row, sep=", ")
+    publish(options, "decisions-unseen", rows)
     print(f"{len(np.unique(name_of_set))} sets of seeds {options.seeds}: area under the curve "
           f"{logistic.area_under_curve(log_odds, y):.4f}, log loss {logistic.log_loss(log_odds, y):.4f}, "
           f"calibration error {logistic.reliability(log_odds, y)[1]:.4f}")

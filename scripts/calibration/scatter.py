@@ -1,13 +1,11 @@
 """What fits show that start from the right pose of a pair and from wrong ones, and end elsewhere with little to show."""
 
-import csv
-
 import numpy as np
 
 LITTLE = -1  # log-odds
 OVERLAP = 0.1  # what shares less shows little, right or wrong
 DISTANCES = (0, 0.5, 1, 2, 3, 4)  # coarse voxels; beyond the last, poses are two
-LEFT = (0, 0.55, 0.7, 0.85, 2.01)
+LEFT = (0, 0.55, 0.7, 0.85, np.inf)
 
 
 def implied(data, scene, name, rows):
@@ -38,10 +36,5 @@ def table(X, right):
             chosen = (log_odds < LITTLE) & (overlap > OVERLAP) & (left >= low) & (left < high) & (slid >= near) & (slid < far)
             yes, no = int(right[chosen].sum()), int((1 - right[chosen]).sum())
             ratio = np.log((yes + 0.5) / (no + 0.5)) - of_all
-            rows.append((f"{low} to {high}" if high < 2 else f"above {low}", f"{near} to {far}", yes, no, round(float(ratio), 1)))
+            rows.append((f"{low} to {high}" if np.isfinite(high) else f"above {low}", f"{near} to {far}", yes, no, round(float(ratio), 1)))
     return rows
-
-
-def write(path, rows):
-    with open(path, "w", newline="") as f:
-        csv.writer(f).writerows(rows)

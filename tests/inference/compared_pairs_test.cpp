@@ -29,6 +29,18 @@ class ComparedPairsTest : public ::testing::Test {
                                      world_.truth({0, 1, 2}));
   }
 
+  // Of a pair of its own, at the truth.
+  double support_alone(double log_odds, double off_m, bool implied, double overlap, double weakest_left) {
+    HypothesisWorld world(2, rng_);
+    PoseHypothesis h = world.aside(0, 1, log_odds, off_m);
+    h.implied = implied;
+    h.overlap = overlap;
+    h.weakest_left = weakest_left;
+    world.add(0, 1, {h});
+    const PairGraph graph = world.graph();
+    return graph.support(graph.pairs()[0], Eigen::Isometry3d::Identity(), world.T_target_source(0, 1));
+  }
+
   Rng rng_ = make_stream(1, "compared_pairs_test");
   HypothesisWorld world_{5, rng_};
   InferenceOptions options_;
@@ -91,13 +103,7 @@ TEST_F(ComparedPairsTest, AFitThatStartedFromThesePosesSaysLess) {
 // Fits from the right pose end elsewhere where nothing holds them: that little shows there says little against it.
 TEST_F(ComparedPairsTest, AFitThatSlidAwayCountsLittleAgainst) {
   const auto says = [&](double left, double log_odds, double off_m, bool implied = true) {
-    HypothesisWorld world(2, rng_);
-    PoseHypothesis h = world.aside(0, 1, log_odds, off_m);
-    h.implied = implied;
-    h.weakest_left = left;
-    world.add(0, 1, {h});
-    const PairGraph graph = world.graph();
-    return graph.support(graph.pairs()[0], Eigen::Isometry3d::Identity(), world.T_target_source(0, 1));
+    return support_alone(log_odds, off_m, implied, 1, left);
   };
   const double firm = options_.firm_left, loose = options_.loose_left, near_m = kSame_m / 8, far_m = 3 * near_m;
   ASSERT_LT(options_.log_missed + options_.log_slid * std::log(3), 0);
@@ -132,15 +138,7 @@ TEST_F(ComparedPairsTest, NoPosesSupportAHypothesisByMoreThanItsMost) {
 
 // At the right pose, too, what hardly overlaps shows nothing.
 TEST_F(ComparedPairsTest, AFitOfWhatHardlyOverlapsCountsLittleForOrAgainst) {
-  const auto says = [&](double overlap, double log_odds) {
-    HypothesisWorld world(2, rng_);
-    PoseHypothesis implied = world.hypothesis(0, 1, log_odds);
-    implied.implied = true;
-    implied.overlap = overlap;
-    world.add(0, 1, {implied});
-    const PairGraph graph = world.graph();
-    return graph.support(graph.pairs()[0], Eigen::Isometry3d::Identity(), world.T_target_source(0, 1));
-  };
+  const auto says = [&](double overlap, double log_odds) { return support_alone(log_odds, 0, true, overlap, 0); };
   const double telling = options_.telling_overlap;
   EXPECT_NEAR(says(1, -20), options_.log_missed, 1e-6);
   EXPECT_EQ(says(telling, -20), says(1, -20));
