@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <set>
 #include <tuple>
 
@@ -27,7 +28,13 @@ TEST(VoxelSampler, IsBoundedAndKeepsTheMean) {
   VoxelSampler sampler(500);
   sampler.add(points);
   const double size = sampler.voxel_size_m();
-  const Points sample = sampler.finish();
+  const auto [sample, counts] = sampler.finish();
+  ASSERT_EQ(counts.size(), sample.size());
+  EXPECT_EQ(std::accumulate(counts.begin(), counts.end(), 0.0), 20000);
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero(), kept = mean;
+  for (const auto& p : points) mean += p / 20000;
+  for (std::size_t i = 0; i < sample.size(); ++i) kept += counts[i] * sample[i] / 20000;
+  EXPECT_LT((kept - mean).norm(), 1e-9);
   EXPECT_LE(sample.size(), 500u);
   EXPECT_GT(sample.size(), 500u / 8);  // one doubling of the voxel takes at most an eighth
   std::set<std::tuple<std::int64_t, std::int64_t, std::int64_t>> keys;
@@ -48,7 +55,7 @@ TEST(VoxelSampler, BlocksOfTheStreamDoNotMatterOnceTheVoxelIsChosen) {
   one.add(all.subspan(1000));
   many.add(all.first(1000));
   for (std::size_t i = 1000; i < points.size(); i += 100) many.add(all.subspan(i, 100));
-  EXPECT_EQ(one.finish(), many.finish());
+  EXPECT_EQ(one.finish().points, many.finish().points);
 }
 
 TEST(VoxelSampler, ScalesWithTheCloud) {
@@ -58,7 +65,7 @@ TEST(VoxelSampler, ScalesWithTheCloud) {
   small.add(points);
   large.add(testing::scaled(points, 1024));
   EXPECT_EQ(large.voxel_size_m(), 1024 * small.voxel_size_m());
-  EXPECT_EQ(large.finish(), testing::scaled(small.finish(), 1024));
+  EXPECT_EQ(large.finish().points, testing::scaled(small.finish().points, 1024));
 }
 
 // Each place is seen many times, as by a scanner that stands still: voxel borders run through many of them.
@@ -73,7 +80,7 @@ TEST(VoxelSampler, APlaceSplitByVoxelBordersIsOnePoint) {
   }
   VoxelSampler sampler(1500);
   sampler.add(points);
-  const Points sample = sampler.finish();
+  const Points sample = sampler.finish().points;
   const double voxel_m = sampler.voxel_size_m();
   ASSERT_GT(voxel_m, 0.1);                                          // it grew beyond what the jitter spans
   ASSERT_GT(count_voxels(points, voxel_m), 6 * places.size() / 5);  // and its borders do split places
@@ -87,13 +94,15 @@ TEST(VoxelSampler, EqualPointsAreOne) {
   VoxelSampler sampler(8);
   sampler.add(Points(100, Eigen::Vector3d(1, 2, 3)));
   EXPECT_EQ(sampler.voxel_size_m(), 0);
-  EXPECT_EQ(sampler.finish(), (Points{{1, 2, 3}}));
+  const auto [points, counts] = sampler.finish();
+  EXPECT_EQ(points, (Points{{1, 2, 3}}));
+  EXPECT_EQ(counts, std::vector<float>{100});
 }
 
 TEST(VoxelSampler, NothingGivesNothingAndSevenVoxelsAreTooFew) {
   VoxelSampler sampler(8);
   sampler.add({});
-  EXPECT_TRUE(sampler.finish().empty());
+  EXPECT_TRUE(sampler.finish().points.empty());
   EXPECT_THROW(VoxelSampler(7), InvalidOptions);
 }
 

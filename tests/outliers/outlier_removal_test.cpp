@@ -24,7 +24,7 @@ struct Working {
 Working sample(const Points& raw) {
   VoxelSampler sampler(131072);
   sampler.add(raw);
-  Points points = sampler.finish();
+  Points points = sampler.finish().points;
   return {std::move(points), sampler.voxel_size_m()};
 }
 

@@ -159,13 +159,20 @@ void VoxelSampler::add(std::span<const Eigen::Vector3d> points) {
   for (const auto& p : points) s.insert(voxel_key(p, s.size), p, 1);
 }
 
-Points VoxelSampler::finish() {
+VoxelSample VoxelSampler::finish() {
   auto& s = *impl_;
-  if (s.size == 0) return s.num_waiting > 0 ? Points{s.waiting} : Points{};
+  if (s.size == 0) {
+    if (s.num_waiting == 0) return {};
+    return {{s.waiting}, {static_cast<float>(s.num_waiting)}};
+  }
   if (s.has_grown) s.join_split_places();
-  Points out;
-  out.reserve(s.voxels.size());
-  for (const auto& v : s.voxels) out.push_back(v.sum / v.count);
+  VoxelSample out;
+  out.points.reserve(s.voxels.size());
+  out.counts.reserve(s.voxels.size());
+  for (const auto& v : s.voxels) {
+    out.points.push_back(v.sum / v.count);
+    out.counts.push_back(static_cast<float>(v.count));
+  }
   return out;
 }
 

@@ -86,7 +86,7 @@ std::string sample_into(const StepStore& steps, const ScanInput& scan, const Pip
   check_profile(options);
   context.report("reading", 0, 1);
   const SampledScan sample = sample_scan_once(steps, scan, options.sampling, options.outliers, context.seed,
-                                              context.num_threads, ScanDetail::kLinePieces);
+                                              context.num_threads, ScanDetail::kViewpointClues);
   find_viewpoint_once(steps, sample, context.seed);
   return sample.digest;
 }
@@ -97,7 +97,7 @@ MatchPlan plan_matches(const StepStore& steps, std::span<const ScanInput> inputs
   if (inputs.size() < 2) throw InvalidOptions("pairs need at least two scans; name the files of all scans");
   check_inputs(inputs, InitialPoses(inputs.size()));
   const MemoryBudget budget(context);
-  std::vector<SampledScan> sampled = read_scans(inputs, options, context, ScanDetail::kLinePieces, &steps);
+  std::vector<SampledScan> sampled = read_scans(inputs, options, context, ScanDetail::kViewpointClues, &steps);
   refuse_twins(sampled);
   const bool as_listed = options.merge_order == MergeOrder::kFile;
   sampled = in_order(std::move(sampled), as_listed ? order_of_list(inputs.size()) : order_by_content(sampled));

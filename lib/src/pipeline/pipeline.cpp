@@ -53,7 +53,7 @@ PipelineResult Pipeline::run(std::span<const ScanInput> inputs, const InitialPos
   StageClock clock(result.stages);
   clock.begin("read and sample");
   std::vector<SampledScan> sampled =
-      read_scans(inputs, options, context, paper ? ScanDetail::kNormals : ScanDetail::kLinePieces, steps_.get());
+      read_scans(inputs, options, context, paper ? ScanDetail::kNormals : ScanDetail::kViewpointClues, steps_.get());
   // Who asks for the order of the list gets it, and so does the paper, whose reference is the middle one of equals.
   const bool as_listed = paper || options.merge_order == MergeOrder::kFile;
   const std::vector<std::size_t> order = as_listed ? order_of_list(inputs.size()) : order_by_content(sampled);

@@ -161,7 +161,7 @@ std::vector<PreparedScan> prepare_scans(std::vector<SampledScan>& scans, const R
       prepared[i] = in_budget(prepare_scan(scans[i], resolutions, options, context.seed));
       scans[i].scan.cloud = Cloud();
       scans[i].is_surface = {};
-      scans[i].line_pieces = {};  // viewpoints are found before
+      scans[i].clues = {};  // viewpoints are found before
       if (scans[i].digest.empty()) continue;
       prepared[i]->digest = prepared_digest(scans[i].digest, resolutions, options, context.seed);
     }

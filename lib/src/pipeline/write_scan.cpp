@@ -65,7 +65,7 @@ std::optional<fs::path> write_scan(const StepStore& steps, const fs::path& folde
   if (poses.scans[place].status == ScanStatus::kUnregistered) return std::nullopt;
   const ScanInput input(scan);
   const ScanDetail detail =
-      options.profile == Profile::kPaper ? ScanDetail::kNormals : ScanDetail::kLinePieces;  // the key of the sample
+      options.profile == Profile::kPaper ? ScanDetail::kNormals : ScanDetail::kViewpointClues;  // the key of the sample
   PipelineResult result;
   result.poses = poses.scans;
   result.scans.resize(poses.scans.size());

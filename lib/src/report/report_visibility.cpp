@@ -13,10 +13,11 @@ Json to_json(const FreeSpaceEvidence& e) {
 
 Json to_json(const Viewpoint& v) {
   const bool by_lines = v.evidence == ViewpointEvidence::kScanLines;
+  const char* evidence = by_lines ? "scan lines" : v.evidence == ViewpointEvidence::kDensity ? "density" : "occlusion";
   Json json{{"determined", v.determined()},
             {"place", {number(v.place.x()), number(v.place.y()), number(v.place.z())}},
             {"radius_m", number(v.radius_m)},
-            {"evidence", by_lines ? "scan lines" : "occlusion"}};
+            {"evidence", evidence}};
   json[by_lines ? "line_share" : "hidden_share"] = by_lines ? v.line_share : v.hidden_share;
   return json;
 }

@@ -40,7 +40,7 @@ double robust_extent(const Points& points, const Eigen::Vector3d& middle) {
   return quantile(values, 0.9);
 }
 
-Points stream_into_sample(const ScanInput& input, Scan& scan, std::size_t max_points) {
+VoxelSample stream_into_sample(const ScanInput& input, Scan& scan, std::size_t max_points) {
   ScanReader reader(input, ReadAttributes::kNo);
   VoxelSampler sampler(max_points);
   PointBlock block;
@@ -57,11 +57,11 @@ Points stream_into_sample(const ScanInput& input, Scan& scan, std::size_t max_po
     throw InvalidInput(input.path.string() + ": " + std::to_string(scan.num_raw_points) +
                        " finite points; a scan needs at least 3; leave the file out or export it again");
   }
-  Points sample = sampler.finish();
+  VoxelSample sample = sampler.finish();
   scan.voxel_size_m = sampler.voxel_size_m();
-  if (sample.size() < kMinPoints) {
-    throw InvalidInput(input.path.string() + ": its points lie in " + std::to_string(sample.size()) +
-                       (sample.size() == 1 ? " place" : " places") +
+  if (sample.points.size() < kMinPoints) {
+    throw InvalidInput(input.path.string() + ": its points lie in " + std::to_string(sample.points.size()) +
+                       (sample.points.size() == 1 ? " place" : " places") +
                        "; a scan needs at least 3 different points; check the file's columns");
   }
   return sample;
@@ -143,13 +143,16 @@ SampledScan sample_scan(const ScanInput& input, const SamplingOptions& sampling,
   Scan& scan = out.scan;
   scan.file = input.path.filename().string();
   if (input.is_file()) scan.unit = name_of(parse_scan_path(input.path).unit);
-  const Points sample = stream_into_sample(input, scan, sampling.max_working_points);
+  const VoxelSample sample = stream_into_sample(input, scan, sampling.max_working_points);
 
   Rng rng = make_stream(seed, "outliers", stream_key(scan));
-  out.outliers = learn_outlier_rule(sample, scan.voxel_size_m, outliers, rng, num_threads);
+  out.outliers = learn_outlier_rule(sample.points, scan.voxel_size_m, outliers, rng, num_threads);
   std::uint32_t near = 0;
-  for (const auto& p : sample) {
-    if (!out.outliers.is_outlier(p, near)) scan.cloud.points.push_back(p);
+  std::vector<float> counts;
+  for (std::size_t i = 0; i < sample.points.size(); ++i) {
+    if (out.outliers.is_outlier(sample.points[i], near)) continue;
+    scan.cloud.points.push_back(sample.points[i]);
+    counts.push_back(sample.counts[i]);
   }
   if (scan.cloud.size() < kMinPoints) {
     throw InvalidInput(input.path.string() + ": outlier removal left " + std::to_string(scan.cloud.size()) +
@@ -161,7 +164,11 @@ SampledScan sample_scan(const ScanInput& input, const SamplingOptions& sampling,
   scan.extent_m = robust_extent(scan.cloud.points, out.middle);
   scan.coverage_m = scan.extent_m > 0 ? coverage_m(scan.cloud.points, scan.extent_m) : 0;
   if (detail == ScanDetail::kPoints) return out;
-  if (detail == ScanDetail::kLinePieces) out.line_pieces = find_line_pieces(scan.cloud.points, index);
+  if (detail == ScanDetail::kViewpointClues) {
+    out.clues.line_pieces = find_line_pieces(scan.cloud.points, index);
+    Rng for_densities = make_stream(seed, "point densities", stream_key(scan));
+    out.clues.densities = sample_densities(scan.cloud.points, counts, index, for_densities);
+  }
   NormalEstimate estimate = normals_of_surfaces(scan, index, num_threads);
   std::vector<double> roughness;
   for (std::size_t i = 0; i < estimate.normals.size(); ++i) {

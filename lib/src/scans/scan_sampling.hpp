@@ -9,14 +9,14 @@
 #include "tcm_icp/io/scan_source.hpp"
 #include "tcm_icp/outliers/outlier_removal.hpp"
 #include "tcm_icp/scans/sampling_options.hpp"
-#include "tcm_icp/visibility/scan_lines.hpp"
+#include "tcm_icp/visibility/viewpoint_clues.hpp"
 
 namespace tcm_icp {
 
 struct SampledScan {
   Scan scan;  ///< working cloud with outliers removed, with a normal at every point that has one
   std::vector<std::uint8_t> is_surface;  ///< of each point; not where the place is too rough
-  LinePieces line_pieces;                ///< of the working cloud, if wanted; none where it was thinned
+  ViewpointClues clues;                  ///< of the working cloud, if wanted
   OutlierRule outliers;
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();  ///< [m] median point of the working cloud
   std::string digest{};                              ///< of all this depends on; empty without a work folder
@@ -24,13 +24,13 @@ struct SampledScan {
 
 /// What is found out about a scan while its neighbours are at hand, each with what stands before it. Who does not need
 /// it should not pay for it: a conventional ICP asks for points, the paper's profile for normals.
-enum class ScanDetail { kPoints, kNormals, kLinePieces };
+enum class ScanDetail { kPoints, kNormals, kViewpointClues };
 
 /// Streams the scan through a voxel sampler (origin: its first point), learns the outlier rule and applies it to the
 /// working cloud, then finds the detail that is wanted; without normals the noise is 0. Memory follows
 /// max_working_points.
 /// @throws InputError, InvalidInput
 SampledScan sample_scan(const ScanInput& input, const SamplingOptions& sampling, const OutlierOptions& outliers,
-                        std::uint64_t seed, int num_threads, ScanDetail detail = ScanDetail::kLinePieces);
+                        std::uint64_t seed, int num_threads, ScanDetail detail = ScanDetail::kViewpointClues);
 
 }  // namespace tcm_icp

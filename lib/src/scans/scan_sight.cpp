@@ -11,11 +11,17 @@ namespace tcm_icp {
 
 std::optional<Viewpoint> find_viewpoint_of(const SampledScan& sampled, std::uint64_t seed) {
   const Scan& scan = sampled.scan;
-  // Scan lines tell it sharply, where there are any, and also outdoors, where little hides behind anything.
+  // Scan lines tell it sharply, where there are any, density nearly so, and both also outdoors, where little hides
+  // behind anything.
   Rng for_lines = make_stream(seed, "scan lines", stream_key(scan));
-  if (auto found = find_viewpoint_by_lines(scan.cloud, sampled.line_pieces, for_lines)) return found;
+  if (auto found = find_viewpoint_by_lines(scan.cloud, sampled.clues.line_pieces, for_lines)) return found;
+  Rng for_density = make_stream(seed, "point density", stream_key(scan));
+  auto by_density = find_viewpoint_by_density(scan.cloud, sampled.clues.densities, for_density);
+  if (by_density && by_density->determined()) return by_density;
   Rng rng = make_stream(seed, "viewpoint", stream_key(scan));
-  return find_viewpoint(scan.cloud, std::array{Eigen::Vector3d(-scan.origin)}, rng);
+  auto by_occlusion = find_viewpoint(scan.cloud, std::array{Eigen::Vector3d(-scan.origin)}, rng);
+  const bool occlusion_tells = by_occlusion && by_occlusion->roughly_determined();
+  return by_density && by_density->roughly_determined() && !occlusion_tells ? by_density : by_occlusion;
 }
 
 std::vector<std::optional<Viewpoint>> find_viewpoints(const std::vector<SampledScan>& scans, const RunContext& context,

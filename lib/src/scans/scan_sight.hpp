@@ -14,10 +14,10 @@
 
 namespace tcm_icp {
 
-/// Where a scan was taken from, in its local frame. Cost: 35 to 180 ms.
+/// Where a scan was taken from, in its local frame. Cost: 20 to 180 ms.
 std::optional<Viewpoint> find_viewpoint_of(const SampledScan& scan, std::uint64_t seed);
 
-/// The same of each scan; while the working clouds are there. By scan lines, else by what hides behind what:
+/// The same of each scan; while the working clouds are there. By scan lines, else by density, else by what hides:
 /// then the origin of the file is one of the places to start from, since a raw scan's origin is its scanner. Reports
 /// "finding viewpoints". @param steps  keeps them, where there is a work folder
 /// @throws Cancelled

@@ -33,6 +33,18 @@ void transfer(Record& record, T& value) {
   record(middles, directions);
 }
 
+template <typename Record, MaybeConst<DensitySamples> T>
+void transfer(Record& record, T& value) {
+  auto& [points, normals, log_area] = value;
+  record(points, normals, log_area);
+}
+
+template <typename Record, MaybeConst<ViewpointClues> T>
+void transfer(Record& record, T& value) {
+  auto& [line_pieces, densities] = value;
+  record(line_pieces, densities);
+}
+
 template <typename Record, MaybeConst<Cloud> T>
 void transfer(Record& record, T& value) {
   auto& [points, normals] = value;
@@ -54,13 +66,13 @@ void transfer(Record& record, T& value) {
 
 template <typename Record>
 void transfer(Record& record, const SampledScan& scan) {
-  record(scan.scan, scan.is_surface, scan.line_pieces, scan.outliers.state(), scan.middle);
+  record(scan.scan, scan.is_surface, scan.clues, scan.outliers.state(), scan.middle);
 }
 
 template <typename Record>
 void transfer(Record& record, SampledScan& scan) {
   OutlierRuleState outliers;
-  record(scan.scan, scan.is_surface, scan.line_pieces, outliers, scan.middle);
+  record(scan.scan, scan.is_surface, scan.clues, outliers, scan.middle);
   if (scan.is_surface.size() != scan.scan.cloud.normals.size()) throw BrokenRecord();
   scan.outliers = OutlierRule(outliers);
 }

@@ -18,6 +18,7 @@ struct UnitFrame {
   Eigen::Vector3f to_unit(const Eigen::Vector3d& p) const {
     return (T_cloud_axes.inverse() * p / unit_m).cast<float>();
   }
+  Eigen::Vector3d from_axes(const Eigen::Vector3d& p) const { return T_cloud_axes * (unit_m * p); }
   Eigen::Vector3d from_unit(const Eigen::Vector3f& p) const { return T_cloud_axes * (unit_m * p.cast<double>()); }
 };
 

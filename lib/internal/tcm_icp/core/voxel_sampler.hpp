@@ -31,6 +31,11 @@ struct VoxelKeyHash {
   std::size_t operator()(const VoxelKey& key) const;
 };
 
+struct VoxelSample {
+  Points points;
+  std::vector<float> counts;  ///< points that each stands for
+};
+
 /// Streaming voxel sampling. The voxel starts well below the points' spacing (a fixed share of the first points' median
 /// distance from their median, so that it scales and turns with the data) and doubles whenever more than `max_voxels`
 /// are occupied. Memory is O(max_voxels), whatever the number of points. Order of the voxels: by their first point.
@@ -49,7 +54,7 @@ class VoxelSampler {
   void add(std::span<const Eigen::Vector3d> points);
 
   /// One mean point per occupied voxel, or per place that fills several. Call once, at the end.
-  Points finish();
+  VoxelSample finish();
 
   /// Voxel edge at the end [m]; 0 where all points were equal.
   double voxel_size_m() const;

@@ -11,19 +11,21 @@
 namespace tcm_icp {
 
 /// What told where a scan was taken from.
-enum class ViewpointEvidence { kScanLines, kOcclusion };
+enum class ViewpointEvidence { kScanLines, kDensity, kOcclusion };
 
-/// The place about which a scan's lines were swept, or from which the fewest of its points hide behind others.
+/// The place about which a scan's lines were swept, from which points lie as densely as they do, or from which the
+/// fewest of them hide behind others.
 struct Viewpoint {
   Eigen::Vector3d place = Eigen::Vector3d::Zero();  ///< in the cloud's frame
-  /// 0..1; points amid what others hide from there, where occlusion told the place. A scanner sees all its points:
-  /// noise and edges are left.
+  /// 0..1; points amid what others hide from there, where scan lines did not tell the place. A scanner sees all its
+  /// points: noise and edges are left.
   double hidden_share = 1;
-  double radius_m = 0;  ///< [m] moves of this length leave as few hidden; three sigma where scan lines told it
+  double radius_m =
+      0;  ///< [m] moves of this length leave as few hidden; three sigma where scan lines or density told it
   double extent_m = 0;  ///< [m] middle edge of the box about 94 % of the points, along their principal axes
   Points alternatives;  ///< places about as good, spread out; `place` is not among them
   ViewpointEvidence evidence = ViewpointEvidence::kOcclusion;
-  double line_share = 0;            ///< 0..1; pieces of scan lines that agree with the place; 0 where occlusion told it
+  double line_share = 0;  ///< 0..1; pieces of scan lines that agree with the place; 0 where something else told it
   double allowed_hidden_share = 0;  ///< 0..1; as many may be hidden from the place of a scanner, for so few points
 
   /// Whether the scan has one place it was taken from, and shows where. A strip of an airborne sensor has none; without
