@@ -78,12 +78,13 @@ std::vector<FittedModel> fit_models(const DensitySamples& samples, const Eigen::
     std::stable_sort(fitted.begin(), fitted.end(), has_less_loss);
     return first_apart(fitted, count, kSamePlace, [](const FittedModel& f) { return f.model.place; });
   };
+  const std::array<Eigen::Vector3d, 3> axes = main_axes(samples.normals);
   std::vector<FittedModel> even, all;
   for (const FittedModel& start : search_grid_of_models(samples, box)) even.push_back(fit(start.model));
   even = apart(even, kMinima);
   for (const FittedModel& start : even) {
     all.push_back(start);
-    for (const Eigen::Vector3d& axis : main_axes(samples.normals)) {
+    for (const Eigen::Vector3d& axis : axes) {
       DensityModel model = start.model;
       model.axis = axis;
       all.push_back(fit(model));
@@ -139,13 +140,13 @@ std::optional<Viewpoint> find_viewpoint_by_density(const Cloud& cloud, const Den
     if (!hidden) hidden.emplace(frame->cloud, kBinsPerPoint);
     const double share = hidden->inner(place.cast<float>());
     if (share > kMostHiddenByDensity) continue;
-    const auto [variances, axes] = symmetric_eigen3(jackknife(model, units));
+    const double variance = symmetric_eigen3(jackknife(model, units)).values[2];  // in its weakest direction
     Viewpoint out;
     out.evidence = ViewpointEvidence::kDensity;
     out.place = frame->from_axes(place);
     out.hidden_share = share;
     out.allowed_hidden_share = kMostHiddenByDensity;
-    out.radius_m = kDeviations * std::sqrt(variances[2]) * frame->unit_m;
+    out.radius_m = kDeviations * std::sqrt(variance) * frame->unit_m;
     out.extent_m = frame->unit_m;
     return out;
   }

@@ -83,7 +83,7 @@ std::optional<Viewpoint> find_viewpoint_by_lines(const Cloud& cloud, const LineP
   }
   Viewpoint out;
   out.evidence = ViewpointEvidence::kScanLines;
-  out.place = frame->T_cloud_axes * (frame->unit_m * best.sweep.centre);
+  out.place = frame->from_axes(best.sweep.centre);
   out.line_share = best.share;
   out.radius_m = kSigmas * best.sweep.sigma * frame->unit_m;
   out.extent_m = frame->unit_m;

@@ -31,8 +31,9 @@ struct VoxelKeyHash {
   std::size_t operator()(const VoxelKey& key) const;
 };
 
+/// What a VoxelSampler keeps of a stream of points.
 struct VoxelSample {
-  Points points;
+  Points points;              ///< [m]
   std::vector<float> counts;  ///< points that each stands for
 };
 

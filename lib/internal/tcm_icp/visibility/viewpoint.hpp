@@ -20,8 +20,8 @@ struct Viewpoint {
   /// 0..1; points amid what others hide from there, where scan lines did not tell the place. A scanner sees all its
   /// points: noise and edges are left.
   double hidden_share = 1;
-  double radius_m =
-      0;  ///< [m] moves of this length leave as few hidden; three sigma where scan lines or density told it
+  /// [m] moves of this length leave as few hidden; three sigma where scan lines or density told the place
+  double radius_m = 0;
   double extent_m = 0;  ///< [m] middle edge of the box about 94 % of the points, along their principal axes
   Points alternatives;  ///< places about as good, spread out; `place` is not among them
   ViewpointEvidence evidence = ViewpointEvidence::kOcclusion;
