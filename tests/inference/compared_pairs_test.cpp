@@ -117,6 +117,61 @@ TEST_F(ComparedPairsTest, AFitThatSlidAwayCountsLittleAgainst) {
   EXPECT_NEAR(says(2, 1, far_m, false), says(0, 1, far_m, false), 1e-9) << "of a search";
 }
 
+// Fits from right poses slide away; what the pair shows there is known once it was measured there.
+TEST_F(ComparedPairsTest, WhatAPairWasMeasuredAtCountsForThosePosesAndAgainstThem) {
+  HypothesisWorld world(2, rng_);
+  PoseHypothesis slid = world.aside(0, 1, 2, 0.4 * kSame_m);
+  slid.implied = true;
+  world.add(0, 1, {slid});
+  const PairGraph without = world.graph();
+  const auto support = [&](const PairGraph& graph, double off_m) {
+    return graph.support(graph.pairs()[0], Eigen::Isometry3d::Identity(),
+                         world.T_target_source(0, 1) * Eigen::Translation3d(0, off_m, 0));
+  };
+  const auto measured = [&](double log_odds) {
+    PoseHypothesis h = world.hypothesis(0, 1, log_odds);
+    h.implied = h.is_there = true;
+    h.overlap = 0.05;
+    h.weakest_left = 2;
+    return without.with({{0, 1, {h}}});
+  };
+  const double by_chance = options_.log_poses - options_.log_implied, missed = options_.log_missed_there;
+  ASSERT_LT(missed, options_.log_missed);
+  for (const double log_odds : {-20.0, -2.0, 0.0, 3.0}) {
+    const PairGraph with = measured(log_odds);
+    ASSERT_EQ(with.pairs().size(), 1u);
+    EXPECT_NEAR(support(with, 0), std::log(std::exp(missed) + std::exp(log_odds + by_chance)), 1e-6) << log_odds;
+    EXPECT_LE(support(with, 0), with.pairs()[0].hypotheses[1].most_support + 1e-9);
+    const Component both = world.truth({0, 1});
+    EXPECT_NEAR(with.support_across(with.pairs()[0], *both.T_reference_scan[0], *both.T_reference_scan[1], 0).support,
+                support(with, 0), 1e-9);
+    for (const double off_m : {0.2 * kSame_m, 0.4 * kSame_m, 2 * kSame_m}) {
+      EXPECT_EQ(support(with, off_m), support(without, off_m)) << "of other poses it says nothing";
+    }
+  }
+  EXPECT_NEAR(support(measured(-20), 0), missed, 1e-6) << "whatever a fit that slid away shows";
+}
+
+TEST_F(ComparedPairsTest, WhatASearchFoundCountsThoughLittleIsMeasuredThere) {
+  HypothesisWorld world(2, rng_);
+  world.add(0, 1, {world.hypothesis(0, 1, 4)});
+  PoseHypothesis h = world.hypothesis(0, 1, -5);
+  h.implied = h.is_there = true;
+  const PairGraph with = world.graph().with({{0, 1, {h}}});
+  EXPECT_DOUBLE_EQ(with.support(with.pairs()[0], Eigen::Isometry3d::Identity(), world.T_target_source(0, 1)),
+                   std::log1p(std::exp(4 + options_.log_poses)));
+}
+
+TEST_F(ComparedPairsTest, FurtherHypothesesMayBeOfPairsThatWereNotCompared) {
+  world_.add(0, 3, {world_.hypothesis(0, 3, 4)});
+  const PairGraph graph = world_.graph(), with = graph.with({{1, 2, {world_.hypothesis(1, 2, 5)}}});
+  ASSERT_EQ(graph.pairs().size(), 1u);
+  ASSERT_EQ(with.pairs().size(), 2u);
+  EXPECT_EQ(with.pairs_of(1), std::vector<std::size_t>{1});
+  EXPECT_EQ(with.pairs()[1].hypotheses[0].log_odds, 5);
+  EXPECT_EQ(with.num_scans(), graph.num_scans());
+}
+
 // By it places are left out that cannot be the best.
 TEST_F(ComparedPairsTest, NoPosesSupportAHypothesisByMoreThanItsMost) {
   for (const double log_odds : {-4.0, -0.5, 0.0, 2.0}) {

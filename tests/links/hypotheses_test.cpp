@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -232,6 +233,27 @@ TEST_F(HypothesisSetTest, TheGraphHasThePairsOfOpenScans) {
   const Isometry3d& T = graph.pairs()[1].hypotheses[0].T_a_b;
   EXPECT_TRUE(graph.same_pose(2, T, T * Eigen::Translation3d(0.9 * set_->same_m(), 0, 0)));
   EXPECT_FALSE(graph.same_pose(2, T, T * Eigen::Translation3d(1.1 * set_->same_m(), 0, 0)));
+}
+
+TEST_F(HypothesisSetTest, WhatAPairShowsWhereOthersPutItIsJudgedLikeAHypothesis) {
+  LinkHypothesis implied = aside(0, 1, 0);
+  implied.candidate.method = CoarseMethod::kImplied;
+  set_->add(0, 1, {implied, aside(0, 1, 3 * set_->same_m(), 0.7)});
+  set_->add(1, 2, {aside(1, 2, 0)});
+  set_->score();
+  const auto& known = of(0, 1);
+  const auto fit = std::find_if(known.begin(), known.end(),
+                                [](const auto& h) { return h.candidate.method == CoarseMethod::kImplied; });
+  ASSERT_NE(fit, known.end());
+  const auto there = set_->compared_there(
+      {{0, 1, implied.T_a_b, implied.measurements}, {0, 3, implied.T_a_b, testing::terrible_link()}});
+  ASSERT_EQ(there.size(), 2u);
+  const PoseHypothesis& h = there[0].hypotheses.at(0);
+  EXPECT_TRUE(h.implied && h.is_there);
+  EXPECT_DOUBLE_EQ(h.log_odds, fit->log_odds) << "with the same rival";
+  EXPECT_EQ(h.overlap, 0.5);
+  EXPECT_EQ(there[1].b, 3u) << "a pair that was not compared";
+  EXPECT_LT(there[1].hypotheses.at(0).log_odds, h.log_odds);
 }
 
 // Of pairs of the first three scans, as the true poses have them.

@@ -70,11 +70,12 @@ TEST(PipelineOptions, BoundsOfInferenceAreChecked) {
   for (const auto& set : std::vector<std::function<void(InferenceOptions&)>>{
            [](InferenceOptions& o) { o.most_log_odds = 0; }, [](InferenceOptions& o) { o.log_implied = -1; },
            [](InferenceOptions& o) { o.log_implied = 2 * o.log_poses; },
-           [](InferenceOptions& o) { o.log_missed = 0.1; }, [](InferenceOptions& o) { o.telling_overlap = 0; },
-           [](InferenceOptions& o) { o.log_spread = -1; }, [](InferenceOptions& o) { o.set_spread = -1; },
-           [](InferenceOptions& o) { o.firm_left = 1.1; }, [](InferenceOptions& o) { o.loose_left = o.firm_left; },
-           [](InferenceOptions& o) { o.log_slid = -1; }, [](InferenceOptions& o) { o.max_starts = 0; },
-           [](InferenceOptions& o) { o.max_grown_scans = 0; }, [](InferenceOptions& o) { o.max_sweeps = 0; }}) {
+           [](InferenceOptions& o) { o.log_missed = 0.1; }, [](InferenceOptions& o) { o.log_missed_there = 0.1; },
+           [](InferenceOptions& o) { o.telling_overlap = 0; }, [](InferenceOptions& o) { o.log_spread = -1; },
+           [](InferenceOptions& o) { o.set_spread = -1; }, [](InferenceOptions& o) { o.firm_left = 1.1; },
+           [](InferenceOptions& o) { o.loose_left = o.firm_left; }, [](InferenceOptions& o) { o.log_slid = -1; },
+           [](InferenceOptions& o) { o.max_starts = 0; }, [](InferenceOptions& o) { o.max_grown_scans = 0; },
+           [](InferenceOptions& o) { o.max_sweeps = 0; }}) {
     PipelineOptions options;
     set(options.inference);
     EXPECT_THROW(options.validate(), InvalidOptions);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
 
 #include "core/decompositions.hpp"
 
@@ -46,8 +48,8 @@ PairGraph::PairGraph(std::vector<ComparedPair> pairs, std::vector<PointMoments> 
                   [&](const auto& h) { return !h.implied && h.log_odds + options_.log_poses < kLeastSupported; });
     for (auto& h : pair.hypotheses) {
       h.mean = h.T_a_b * moments_[pair.b].mean;
-      h.telling = telling(h.overlap);
-      if (h.implied) h.slid = slid(h.weakest_left);
+      h.telling = h.is_there ? Telling{std::exp(options_.log_missed_there), 1} : telling(h.overlap);
+      if (h.implied && !h.is_there) h.slid = slid(h.weakest_left);
       const Telling found = h.as_found(0);
       const double odds = odds_found(h, 0);
       h.most_support = h.slid > 0 ? std::log1p(found.shows * odds) : found.says(odds);
@@ -65,12 +67,29 @@ PairGraph::PairGraph(std::vector<ComparedPair> pairs, std::vector<PointMoments> 
   }
 }
 
+PairGraph PairGraph::with(const std::vector<ComparedPair>& more) const {
+  std::map<std::pair<std::size_t, std::size_t>, ComparedPair> pairs;
+  for (const auto* some : {&pairs_, &more}) {
+    for (const ComparedPair& pair : *some) {
+      ComparedPair& known = pairs.try_emplace({pair.a, pair.b}, ComparedPair{pair.a, pair.b, {}}).first->second;
+      known.hypotheses.insert(known.hypotheses.end(), pair.hypotheses.begin(), pair.hypotheses.end());
+      known.teachers.insert(known.teachers.end(), pair.teachers.begin(), pair.teachers.end());
+    }
+  }
+  std::vector<ComparedPair> all;
+  for (auto& [scans, pair] : pairs) all.push_back(std::move(pair));
+  return {std::move(all), moments_, same_m_, options_};
+}
+
 template <typename Visit>
 void PairGraph::for_agreeing(const ComparedPair& pair, const Eigen::Isometry3d& T_a, const Eigen::Isometry3d& T_b,
                              Visit visit) const {
   const Eigen::Vector3d mean =
       T_a.linear().transpose() * (T_b * moments_[pair.b].mean - T_a.translation());  // of b in a's frame
+  const bool is_measured = std::any_of(pair.hypotheses.begin(), pair.hypotheses.end(),
+                                       [&](const auto& h) { return h.is_there && is_at(pair, h, T_a, T_b); });
   for (const PoseHypothesis& h : pair.hypotheses) {
+    if (is_measured ? h.implied && !h.is_there : h.is_there) continue;
     if ((h.mean - mean).squaredNorm() >= same_m_ * same_m_) continue;  // points are farther apart than their mean
     const double apart_m = rms_displacement(T_b.inverse() * (T_a * h.T_a_b), moments_[pair.b]);
     if (apart_m >= same_m_) continue;

@@ -36,6 +36,9 @@ struct PoseHypothesis {
   /// Of the pair's agreement there, after a slide in its weakest direction: the more, the less holds the pose.
   double weakest_left = 0;
   double taught = 0;  ///< of the log-odds: the set's constant, as far as `teachers` have taught it
+  /// Implied, and measured at the very poses that others imply, where no fit of the pair has ended: what it shows
+  /// there, for them or against them. It tells nothing of others.
+  bool is_there = false;
   // PairGraph's
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();  ///< of b's points, in a's frame
   Telling telling = {};                            ///< were it implied: the less, the less overlaps
@@ -92,6 +95,9 @@ class PairGraph {
   PairGraph(std::vector<ComparedPair> pairs, std::vector<PointMoments> moments, double same_m,
             const InferenceOptions& options);
 
+  /// The same graph with further hypotheses of its pairs, and further pairs.
+  PairGraph with(const std::vector<ComparedPair>& more) const;
+
   std::size_t num_scans() const { return moments_.size(); }
   const std::vector<ComparedPair>& pairs() const { return pairs_; }
   const std::vector<std::size_t>& pairs_of(std::size_t scan) const { return of_scan_[scan]; }
@@ -126,7 +132,9 @@ class PairGraph {
   /// where it is implied. The 1 is of a search that missed the right pose. A fit that starts there misses it rarely: an
   /// implied hypothesis of little odds counts against the poses, by log_missed at the most; by less where less than
   /// telling_overlap of the pair overlaps there, for the right pose seldom shows there either, and what it shows
-  /// counts for less; and by less where it ended farther off and little holds it (log_slid).
+  /// counts for less; and by less where it ended farther off and little holds it (log_slid). Where a pair was measured
+  /// at these very poses its implied hypotheses about them are not asked, and it may count against them by
+  /// log_missed_there.
   double support(const ComparedPair& pair, const Eigen::Isometry3d& T_a, const Eigen::Isometry3d& T_b) const {
     return agreement(pair, T_a, T_b).support;
   }
@@ -166,6 +174,11 @@ class PairGraph {
   double odds_found(const PoseHypothesis& h, double farther) const;
   Telling telling(double overlap) const;
   double slid(double weakest_left) const;
+  // Where the pair was measured there: at these very poses.
+  bool is_at(const ComparedPair& pair, const PoseHypothesis& h, const Eigen::Isometry3d& T_a,
+             const Eigen::Isometry3d& T_b) const {
+    return rms_displacement(T_b.inverse() * (T_a * h.T_a_b), moments_[pair.b]) < same_m_ / 8;
+  }
 
   std::vector<ComparedPair> pairs_;
   std::vector<PointMoments> moments_;

@@ -28,6 +28,11 @@ double second_best_ratio(const LinkHypothesis& h, const std::vector<LinkHypothes
   return own > 0 ? best / own : best > 0 ? std::numeric_limits<double>::infinity() : 0;
 }
 
+LinkFeatures features_of(const LinkHypothesis& h, const SetReference& set) {
+  return link_features(h.measurements, SearchMeasurements{h.candidate.method, h.candidate.margin, h.second_best_ratio},
+                       set);
+}
+
 bool is_implied(const LinkHypothesis& h) { return h.candidate.method == CoarseMethod::kImplied; }
 
 }  // namespace
@@ -67,8 +72,7 @@ void HypothesisSet::score() {
   for (auto& [pair, hypotheses] : pairs_) {
     for (auto& h : hypotheses) {
       h.second_best_ratio = second_best_ratio(h, hypotheses, moments_[pair.second], same_m());
-      const SearchMeasurements search{h.candidate.method, h.candidate.margin, h.second_best_ratio};
-      h.log_odds = in_set(h, hypothesis_log_odds(link_features(h.measurements, search, reference_)));
+      h.log_odds = in_set(h, hypothesis_log_odds(features_of(h, reference_)));
     }
     std::stable_sort(hypotheses.begin(), hypotheses.end(),
                      [](const LinkHypothesis& x, const LinkHypothesis& y) { return x.log_odds > y.log_odds; });
@@ -113,21 +117,39 @@ double HypothesisSet::log_odds(std::size_t a, std::size_t b) const {
   return pair->second.front().log_odds;
 }
 
+PoseHypothesis HypothesisSet::pose_of(const LinkHypothesis& h) const {
+  const AlignmentEvidence& evidence = h.measurements.evidence;
+  const double taught = h.is_later ? 0 : reference_.constant;
+  return {h.T_a_b, h.log_odds, is_implied(h), evidence.overlap, weakest_left(evidence), taught};
+}
+
+PoseHypothesis HypothesisSet::pose_of(const MeasuredPose& measured) const {
+  LinkHypothesis h{measured.T_a_b, {measured.T_a_b, CoarseMethod::kImplied}, measured.measurements};
+  if (const auto known = pairs_.find({measured.a, measured.b}); known != pairs_.end()) {
+    h.second_best_ratio = second_best_ratio(h, known->second, moments_[measured.b], same_m());
+  }
+  h.log_odds = in_set(h, hypothesis_log_odds(features_of(h, reference_)));
+  PoseHypothesis out = pose_of(h);
+  out.is_there = true;
+  return out;
+}
+
 PairGraph HypothesisSet::graph(const std::vector<bool>& open, const InferenceOptions& options) const {
   std::vector<ComparedPair> pairs;
   for (const auto& [pair, hypotheses] : pairs_) {
     if (!open[pair.first] || !open[pair.second]) continue;
     ComparedPair compared{pair.first, pair.second, {}, {}};
-    for (const auto& h : hypotheses) {
-      const double taught = h.is_later ? 0 : reference_.constant;
-      const AlignmentEvidence& evidence = h.measurements.evidence;
-      compared.hypotheses.push_back(
-          {h.T_a_b, h.log_odds, is_implied(h), evidence.overlap, weakest_left(evidence), taught});
-    }
+    for (const auto& h : hypotheses) compared.hypotheses.push_back(pose_of(h));
     if (const auto taught = teachers_.find(pair); taught != teachers_.end()) compared.teachers = taught->second;
     pairs.push_back(std::move(compared));
   }
   return {std::move(pairs), moments_, same_m(), options};
+}
+
+std::vector<ComparedPair> HypothesisSet::compared_there(const std::vector<MeasuredPose>& measured) const {
+  std::vector<ComparedPair> out;
+  for (const MeasuredPose& m : measured) out.push_back({m.a, m.b, {pose_of(m)}});
+  return out;
 }
 
 std::vector<std::pair<std::size_t, std::size_t>> HypothesisSet::without_unlikely(

@@ -26,6 +26,13 @@ struct LinkHypothesis {
   double log_odds = 0;           ///< that it is right, by the pair and what its set usually shows
 };
 
+/// What a pair shows at a pose that others imply, as measured there.
+struct MeasuredPose {
+  std::size_t a = 0, b = 0;  ///< a < b
+  Eigen::Isometry3d T_a_b = Eigen::Isometry3d::Identity();
+  LinkMeasurements measurements;
+};
+
 /// All hypotheses of a set, by pairs (a < b).
 class HypothesisSet {
  public:
@@ -61,6 +68,9 @@ class HypothesisSet {
   /// The pairs of the scans with `open`.
   PairGraph graph(const std::vector<bool>& open, const InferenceOptions& options) const;
 
+  /// What pairs show at poses that others imply, judged as the set's hypotheses are; for PairGraph::with().
+  std::vector<ComparedPair> compared_there(const std::vector<MeasuredPose>& measured) const;
+
   /// Without pairs that were compared and of which no hypothesis that is likelier right than wrong leads to their pose,
   /// as long as other pairs connect both scans. Such a pair shares little, and what its surfaces lie next to may be a
   /// wall's other face: a scan of the simulated interiors was drawn off by 0.1 m, half a street by 1.8 coarse voxels
@@ -71,6 +81,9 @@ class HypothesisSet {
       const std::vector<Eigen::Isometry3d>& T_reference_scan) const;
 
  private:
+  PoseHypothesis pose_of(const LinkHypothesis& h) const;
+  PoseHypothesis pose_of(const MeasuredPose& measured) const;
+
   /// Log-odds in this set of a hypothesis with such log-odds by itself; and the other way round.
   double in_set(const LinkHypothesis& h, double by_itself) const {
     return h.is_later ? reference_.later_constant + reference_.later_slope * by_itself

@@ -48,6 +48,7 @@ void InferenceOptions::validate() const {
           log_implied);
   require(set_spread >= 0, "inference set_spread must be at least 0", set_spread);
   require(log_missed <= 0, "inference log_missed must be at most 0", log_missed);
+  require(log_missed_there <= 0, "inference log_missed_there must be at most 0", log_missed_there);
   require(telling_overlap > 0, "inference telling_overlap must be positive", telling_overlap);
   require(firm_left >= 0 && firm_left <= 1, "inference firm_left must be between 0 and 1", firm_left);
   require(loose_left > firm_left, "inference loose_left must be above firm_left", loose_left);

@@ -84,8 +84,8 @@ class Settling {
 
   void adjust() {
     std::vector<Eigen::Isometry3d> T = poses();
-    out_.pairs = hypotheses_.without_unlikely(
-        overlapping_pairs(scans_, T, membership(), kMinLinkOverlap, context_.num_threads), T);
+    overlapping_ = overlapping_pairs(scans_, T, membership(), kMinLinkOverlap, context_.num_threads);
+    out_.pairs = hypotheses_.without_unlikely(overlapping_, T);
     out_.adjustment = adjust_once(steps_, scans_, out_.pairs, out_.component.reference, resolutions_,
                                   options_.adjustment, options_.lp, context_, T, poses_are_);
     poses_are_ = StartingPoses::kAdjusted;
@@ -138,8 +138,9 @@ class Settling {
     parallel_for(context_.num_threads, members.size(), [&](std::size_t begin, std::size_t end) {
       for (std::size_t k = begin; k < end; ++k) measured[k] = measure_scan(members[k], T);
     });
-    cuts_ = weakest_cuts(graph_, out_.component, context_.num_threads);
-    if (members.size() > 1) cuts_.push_back(measure_cut(graph_, out_.component, {out_.component.reference}));
+    const PairGraph graph = graph_.with(hypotheses_.compared_there(measured_there()));
+    cuts_ = weakest_cuts(graph, out_.component, context_.num_threads);
+    if (members.size() > 1) cuts_.push_back(measure_cut(graph, out_.component, {out_.component.reference}));
     for (std::size_t k = 0; k < members.size(); ++k) {
       out_.measurements[members[k]] = measured[k];
       weigh_cuts(members[k], *out_.measurements[members[k]]);
@@ -148,19 +149,32 @@ class Settling {
 
   // Those that were measured where they are, but for what no measurement tells, are not measured again.
   void measure_links(const std::vector<Eigen::Isometry3d>& T) {
-    std::vector<MeasuredAt> now(out_.pairs.size());
-    parallel_for(context_.num_threads, out_.pairs.size(), [&](std::size_t begin, std::size_t end) {
+    std::vector<MeasuredAt> now(overlapping_.size());
+    parallel_for(context_.num_threads, overlapping_.size(), [&](std::size_t begin, std::size_t end) {
       for (std::size_t k = begin; k < end; ++k) {
-        const auto [a, b] = out_.pairs[k];
+        const auto [a, b] = overlapping_[k];
         const Eigen::Isometry3d T_a_b = T[a].inverse() * T[b];
-        const auto known = measured_.find(out_.pairs[k]);
+        const auto known = measured_.find(overlapping_[k]);
         const bool is_known =
             known != measured_.end() && rms_displacement(T_a_b.inverse() * known->second.T_a_b, scans_[b].moments) <
                                             kUnmovedInVoxels * resolutions_.fine_m;
         now[k] = is_known ? known->second : MeasuredAt{T_a_b, measure_link(scans_[a], scans_[b], T_a_b)};
       }
     });
-    for (std::size_t k = 0; k < out_.pairs.size(); ++k) measured_.insert_or_assign(out_.pairs[k], std::move(now[k]));
+    for (std::size_t k = 0; k < overlapping_.size(); ++k) {
+      measured_.insert_or_assign(overlapping_[k], std::move(now[k]));
+    }
+  }
+
+  // Fits of pairs that little holds slide away from poses that are right, and then say nothing of them. Poses were
+  // adjusted to what lies nearest, so that this agrees at wrong ones, too; not to what scans see through one another.
+  std::vector<MeasuredPose> measured_there() const {
+    std::vector<MeasuredPose> out;
+    for (const auto& pair : overlapping_) {
+      const MeasuredAt& at = measured_.at(pair);
+      if (at.measurements.free_space.tells()) out.push_back({pair.first, pair.second, at.T_a_b, at.measurements});
+    }
+    return out;
   }
 
   const LinkMeasurements& measurements_of(const ScanPairs::value_type& pair) const {
@@ -326,6 +340,7 @@ class Settling {
   const RunContext& context_;
   const StepStore* steps_;
   SettledComponent out_;
+  ScanPairs overlapping_;  // of members, those that the adjustment leaves out, too
   StartingPoses poses_are_ = StartingPoses::kInferred;
   std::map<ScanPairs::value_type, MeasuredAt> measured_;
   std::vector<Cut> cuts_;

@@ -9,6 +9,9 @@ struct InferenceOptions {
   double log_poses = 3;      ///< > 0
   double log_implied = 2;    ///< 0..log_poses; by how much less it says that a fit ends where it started from
   double log_missed = -1.5;  ///< <= 0; logarithm of how often a fit that starts at the right pose shows nothing
+  /// <= 0; the same of a pair that was measured at poses as they were adjusted, without a fit of its own, where it sees
+  /// what is free of surfaces: that is no matter of how near a fit got.
+  double log_missed_there = -3;
   /// > 0; of an implied hypothesis, from which on that is so: what overlaps less shows less, right or wrong.
   double telling_overlap = 0.2;
   /// Of the agreement that a slide leaves: up to where a pair holds its pose, and from where on nothing holds it.
