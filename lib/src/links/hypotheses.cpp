@@ -28,14 +28,14 @@ double second_best_ratio(const LinkHypothesis& h, const std::vector<LinkHypothes
   return own > 0 ? best / own : best > 0 ? std::numeric_limits<double>::infinity() : 0;
 }
 
+bool is_implied(const LinkHypothesis& h) { return h.candidate.method == CoarseMethod::kImplied; }
+
+}  // namespace
+
 LinkFeatures features_of(const LinkHypothesis& h, const SetReference& set) {
   return link_features(h.measurements, SearchMeasurements{h.candidate.method, h.candidate.margin, h.second_best_ratio},
                        set);
 }
-
-bool is_implied(const LinkHypothesis& h) { return h.candidate.method == CoarseMethod::kImplied; }
-
-}  // namespace
 
 HypothesisSet::HypothesisSet(double voxel_m, double noise_m, std::vector<PointMoments> moments)
     : voxel_m_(voxel_m), noise_m_(noise_m), moments_(std::move(moments)) {

@@ -26,6 +26,9 @@ struct LinkHypothesis {
   double log_odds = 0;           ///< that it is right, by the pair and what its set usually shows
 };
 
+/// What it measures, among the hypotheses of a set.
+LinkFeatures features_of(const LinkHypothesis& h, const SetReference& set);
+
 /// What a pair shows at a pose that others imply, as measured there.
 struct MeasuredPose {
   std::size_t a = 0, b = 0;  ///< a < b

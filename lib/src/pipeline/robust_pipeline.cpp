@@ -372,9 +372,7 @@ class RobustPipeline {
         record.free_space = h.measurements.free_space;
         record.is_later = h.is_later;
         record.log_odds = h.log_odds;
-        record.features = link_features(h.measurements,
-                                        SearchMeasurements{h.candidate.method, h.candidate.margin, h.second_best_ratio},
-                                        hypotheses_->reference());
+        record.features = features_of(h, hypotheses_->reference());
         if (both != settled_.end()) {
           const auto& T = both->component.T_reference_scan;
           const Eigen::Isometry3d T_a_b = T[a]->inverse() * *T[b];
