@@ -260,9 +260,9 @@ TEST_F(HypothesisSetTest, WhatAPairShowsWhereOthersPutItIsJudgedLikeAHypothesis)
 class WithoutUnlikely : public HypothesisSetTest {
  protected:
   void compare(std::size_t a, std::size_t b, double off_m) { set_->add(a, b, {aside(a, b, off_m)}); }
-  Pairs kept() {
+  Pairs kept(const std::vector<MeasuredPose>& there = {}) {
     set_->score();
-    return set_->without_unlikely(all_, T_);
+    return set_->without_unlikely(all_, T_, set_->compared_there(there));
   }
   const Pairs all_{{0, 1}, {1, 2}, {0, 2}};
 };
@@ -290,6 +290,16 @@ TEST_F(WithoutUnlikely, APairThatLeadsThereButIsLikelierWrongIsLeftOut) {
   EXPECT_EQ(kept(), (Pairs{{0, 1}, {1, 2}}));
   ASSERT_LT(of(0, 2).front().log_odds, 0);
   ASSERT_GT(of(0, 1).front().log_odds, 0);
+}
+
+TEST_F(WithoutUnlikely, APairThatIsLikelyWhereTheOthersPutItStays) {
+  compare(0, 1, 0);
+  compare(1, 2, 0);
+  compare(0, 2, 3);
+  const LinkHypothesis there = aside(0, 2, 0.1), elsewhere = aside(0, 2, 3);
+  EXPECT_EQ(kept({{0, 2, there.T_a_b, there.measurements}}), all_);
+  EXPECT_EQ(kept({{0, 2, there.T_a_b, testing::terrible_link()}}), (Pairs{{0, 1}, {1, 2}})) << "it shows nothing";
+  EXPECT_EQ(kept({{0, 2, elsewhere.T_a_b, elsewhere.measurements}}), (Pairs{{0, 1}, {1, 2}})) << "of other poses";
 }
 
 TEST_F(WithoutUnlikely, NotWhereItAloneConnectsItsScans) {

@@ -43,6 +43,14 @@ Cut measure_cut(const PairGraph& graph, const Component& component, std::vector<
   return {std::move(moved), support, elsewhere.motion ? elsewhere.support : 0, elsewhere.motion, odds};
 }
 
+const Cut* weakest_cut_of(std::size_t scan, const std::vector<Cut>& cuts) {
+  const Cut* weakest = nullptr;
+  for (const Cut& cut : cuts) {
+    if (cut.moves(scan) && (weakest == nullptr || cut.lead() < weakest->lead())) weakest = &cut;
+  }
+  return weakest;
+}
+
 std::vector<std::size_t> frontier(const PairGraph& graph, const Component& component, const Cut& cut) {
   const auto& T = component.T_reference_scan;
   std::vector<std::size_t> out;

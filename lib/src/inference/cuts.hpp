@@ -45,6 +45,9 @@ std::vector<std::vector<std::size_t>> weakest_parts(const PairGraph& graph, cons
 std::vector<Cut> weakest_cuts(const PairGraph& graph, const Component& component, int num_threads = 1,
                               double most_lead = std::numeric_limits<double>::infinity());
 
+/// The cut with the least lead of those that move the scan; nullptr where none does.
+const Cut* weakest_cut_of(std::size_t scan, const std::vector<Cut>& cuts);
+
 /// Those of the moved that pairs across the cut hold where they are: there, more may be found out. All of them where
 /// none does.
 std::vector<std::size_t> frontier(const PairGraph& graph, const Component& component, const Cut& cut);

@@ -153,15 +153,20 @@ std::vector<ComparedPair> HypothesisSet::compared_there(const std::vector<Measur
 }
 
 std::vector<std::pair<std::size_t, std::size_t>> HypothesisSet::without_unlikely(
-    std::vector<std::pair<std::size_t, std::size_t>> pairs,
-    const std::vector<Eigen::Isometry3d>& T_reference_scan) const {
+    std::vector<std::pair<std::size_t, std::size_t>> pairs, const std::vector<Eigen::Isometry3d>& T_reference_scan,
+    const std::vector<ComparedPair>& there) const {
+  std::map<std::pair<std::size_t, std::size_t>, const ComparedPair*> shown;
+  for (const ComparedPair& pair : there) shown[{pair.a, pair.b}] = &pair;
   const auto stays = [&](const std::pair<std::size_t, std::size_t>& pair) {
     const auto compared = pairs_.find(pair);
     if (compared == pairs_.end()) return true;
     const Eigen::Isometry3d T_a_b = T_reference_scan[pair.first].inverse() * T_reference_scan[pair.second];
-    return std::any_of(compared->second.begin(), compared->second.end(), [&](const LinkHypothesis& h) {
+    const auto is_likely_there = [&](const auto& h) {
       return h.log_odds > 0 && rms_displacement(T_a_b.inverse() * h.T_a_b, moments_[pair.second]) < same_m();
-    });
+    };
+    const auto has_one = [&](const auto& all) { return std::any_of(all.begin(), all.end(), is_likely_there); };
+    const auto known = shown.find(pair);
+    return has_one(compared->second) || (known != shown.end() && has_one(known->second->hypotheses));
   };
   std::vector<std::size_t> group(moments_.size());
   std::iota(group.begin(), group.end(), std::size_t{0});

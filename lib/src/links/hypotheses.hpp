@@ -77,11 +77,13 @@ class HypothesisSet {
   /// Without pairs that were compared and of which no hypothesis that is likelier right than wrong leads to their pose,
   /// as long as other pairs connect both scans. Such a pair shares little, and what its surfaces lie next to may be a
   /// wall's other face: a scan of the simulated interiors was drawn off by 0.1 m, half a street by 1.8 coarse voxels
-  /// from links that were sure. Pairs that were not compared stay.
+  /// from links that were sure. Pairs that were not compared stay, and those that are likelier right by what they show
+  /// at their pose, wherever their own fits slid to.
   /// @param T_reference_scan  of every scan that a pair names
+  /// @param there             compared_there() of some of the pairs
   std::vector<std::pair<std::size_t, std::size_t>> without_unlikely(
-      std::vector<std::pair<std::size_t, std::size_t>> pairs,
-      const std::vector<Eigen::Isometry3d>& T_reference_scan) const;
+      std::vector<std::pair<std::size_t, std::size_t>> pairs, const std::vector<Eigen::Isometry3d>& T_reference_scan,
+      const std::vector<ComparedPair>& there = {}) const;
 
  private:
   PoseHypothesis pose_of(const LinkHypothesis& h) const;

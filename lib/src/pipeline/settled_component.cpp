@@ -1,8 +1,6 @@
 #include "pipeline/settled_component.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <iterator>
 #include <map>
 #include <string>
 
@@ -12,19 +10,15 @@
 #include "inference/configuration.hpp"
 #include "inference/cuts.hpp"
 #include "links/measure_link.hpp"
-#include "links/verification_at.hpp"
-#include "merging/merged_cloud.hpp"
+#include "pipeline/leaving_scans.hpp"
+#include "pipeline/measured_scan.hpp"
 #include "pipeline/scan_set.hpp"
 #include "pipeline/solve_steps.hpp"
-#include "tcm_icp/core/even_sample.hpp"
 #include "tcm_icp/core/parallel.hpp"
 
 namespace tcm_icp {
 namespace {
 
-// Of a scan: those it overlaps most with say what there is to say, and each costs time.
-constexpr std::size_t kMaxNeighbors = 6;
-constexpr std::size_t kUnionPoints = 1000;
 constexpr double kUnmovedInVoxels = 0.01;  // fine ones, which are larger than the noise
 constexpr int kMaxRounds = 3;              // of moves to likelier places
 
@@ -58,6 +52,7 @@ class Settling {
       if (is_whole) adjust_likelier();
       // Before anything is judged: a decision is about where a scan lies to the reference.
       if (options_.reference.empty()) choose_best_reference();
+      if (is_whole) take_pairs_back();
       measure();
       const std::vector<std::size_t> dropped = decide_members();
       context_.debug(std::to_string(dropped.size()) + " of " + std::to_string(out_.component.size()) +
@@ -85,11 +80,19 @@ class Settling {
   void adjust() {
     std::vector<Eigen::Isometry3d> T = poses();
     overlapping_ = overlapping_pairs(scans_, T, membership(), kMinLinkOverlap, context_.num_threads);
-    out_.pairs = hypotheses_.without_unlikely(overlapping_, T);
+    out_.pairs = hypotheses_.without_unlikely(overlapping_, T, there_);
     out_.adjustment = adjust_once(steps_, scans_, out_.pairs, out_.component.reference, resolutions_,
                                   options_.adjustment, options_.lp, context_, T, poses_are_);
     poses_are_ = StartingPoses::kAdjusted;
     for (const std::size_t i : out_.component.members()) out_.component.T_reference_scan[i] = T[i];
+  }
+
+  // Pairs that were left out are adjusted, too, where they are likelier right than wrong by what they show at the poses
+  // that the others have. Once: what that brings back moves poses little.
+  void take_pairs_back() {
+    const std::vector<Eigen::Isometry3d> T = poses();
+    measure_links(T);
+    if (hypotheses_.without_unlikely(overlapping_, T, there_) != out_.pairs) adjust();
   }
 
   // Adjusted poses are closer to what is right than those of the hypotheses were: what agrees with them, and what
@@ -136,9 +139,9 @@ class Settling {
     const std::vector<std::size_t> members = out_.component.members();
     std::vector<ScanMeasurements> measured(members.size());
     parallel_for(context_.num_threads, members.size(), [&](std::size_t begin, std::size_t end) {
-      for (std::size_t k = begin; k < end; ++k) measured[k] = measure_scan(members[k], T);
+      for (std::size_t k = begin; k < end; ++k) measured[k] = measure(members[k], T);
     });
-    const PairGraph graph = graph_.with(hypotheses_.compared_there(measured_there()));
+    const PairGraph graph = graph_.with(there_);
     cuts_ = weakest_cuts(graph, out_.component, context_.num_threads);
     if (members.size() > 1) cuts_.push_back(measure_cut(graph, out_.component, {out_.component.reference}));
     for (std::size_t k = 0; k < members.size(); ++k) {
@@ -164,6 +167,7 @@ class Settling {
     for (std::size_t k = 0; k < overlapping_.size(); ++k) {
       measured_.insert_or_assign(overlapping_[k], std::move(now[k]));
     }
+    there_ = hypotheses_.compared_there(measured_there());
   }
 
   // Fits of pairs that little holds slide away from poses that are right, and then say nothing of them. Poses were
@@ -181,58 +185,22 @@ class Settling {
     return measured_.at(pair).measurements;
   }
 
-  // The scan's points against the union of those it overlaps most with.
-  ScanMeasurements measure_scan(std::size_t scan, const std::vector<Eigen::Isometry3d>& T) const {
-    ScanMeasurements out;
-    std::vector<std::pair<double, std::size_t>> neighbors;
-    for (std::size_t k = 0; k < out_.pairs.size(); ++k) {
-      const auto [a, b] = out_.pairs[k];
-      if (a != scan && b != scan) continue;
-      const LinkMeasurements& m = measurements_of(out_.pairs[k]);
-      neighbors.emplace_back(-m.evidence.overlap, a == scan ? b : a);
-      out.free_space += m.free_space;
+  ScanMeasurements measure(std::size_t scan, const std::vector<Eigen::Isometry3d>& T) const {
+    std::vector<LinkOfScan> links;
+    for (const auto& pair : out_.pairs) {
+      if (pair.first != scan && pair.second != scan) continue;
+      links.push_back({pair.first == scan ? pair.second : pair.first, &measurements_of(pair)});
     }
-    out.sigma_in_voxels = sigma_in_voxels(scan, T[scan]);
-    if (neighbors.empty()) return out;
-    std::sort(neighbors.begin(), neighbors.end());
-    const double voxel_m = scans_[scan].pyramid.level(0).voxel_size_m;
-    MergedCloud cloud(voxel_m);
-    for (std::size_t k = 0; k < std::min(kMaxNeighbors, neighbors.size()); ++k) {
-      const std::size_t other = neighbors[k].second;
-      cloud.add(scans_[other].pyramid.level(0).cloud, T[other]);
+    ScanMeasurements out = measure_scan(scans_, scan, links, T);
+    if (scan < out_.uncertainty.poses.size()) {
+      out.sigma_in_voxels =
+          sigma_in_voxels(out_.uncertainty.poses[scan], scans_[scan].moments, T[scan], resolutions_.coarse_m);
     }
-    out.evidence = verify_alignment(even_sample(scans_[scan].held_out_sample, kUnionPoints), cloud.level(), T[scan],
-                                    verification_at(voxel_m));
     return out;
   }
 
-  // Rms over the scan's points, from the covariance of its pose.
-  std::optional<double> sigma_in_voxels(std::size_t scan, const Eigen::Isometry3d& T) const {
-    if (scan >= out_.uncertainty.poses.size()) return std::nullopt;
-    const PoseUncertainty& u = out_.uncertainty.poses[scan];
-    if (!u.determined) return std::nullopt;
-    const PointMoments& points = scans_[scan].moments;
-    const Eigen::Vector3d from_centre = T * points.mean - u.centre;
-    const Eigen::Matrix3d spread =
-        T.linear() * points.covariance * T.linear().transpose() + from_centre * from_centre.transpose();
-    const Eigen::Matrix3d rotation = u.covariance.topLeftCorner<3, 3>();
-    const double variance_m2 = (rotation * (spread.trace() * Eigen::Matrix3d::Identity() - spread)).trace() +
-                               u.covariance.bottomRightCorner<3, 3>().trace();
-    return std::sqrt(std::max(0.0, variance_m2)) / resolutions_.coarse_m;
-  }
-
-  // The cut with the least lead of those that move this scan.
-  const Cut* weakest_cut_of(std::size_t scan) const {
-    const Cut* weakest = nullptr;
-    for (const Cut& cut : cuts_) {
-      if (!cut.moves(scan)) continue;
-      if (weakest == nullptr || cut.lead() < weakest->lead()) weakest = &cut;
-    }
-    return weakest;
-  }
-
   void weigh_cuts(std::size_t scan, ScanMeasurements& m) const {
-    const Cut* weakest = weakest_cut_of(scan);
+    const Cut* weakest = weakest_cut_of(scan, cuts_);
     if (weakest == nullptr) return;
     m.lead = weakest->lead();
     m.support = weakest->support;
@@ -247,68 +215,14 @@ class Settling {
     m.other_distance = rms_displacement(T.inverse() * *weakest->other_motion * T, scans_[scan].moments);
   }
 
-  // Who leaves: nobody, where all pass. What a scan that does not pass is linked to is judged again without it, whether
-  // it leaves now or waits for a worse one itself; what is not leaves together with it.
   std::vector<std::size_t> decide_members() {
     const std::vector<std::size_t> members = out_.component.members();
     if (members.size() < 2) return {};
     std::vector<ScanMeasurements> all;
     for (const std::size_t i : members) all.push_back(*out_.measurements[i]);
     const ComponentReference usual = ComponentReference::of(all);
-    std::vector<std::size_t> worst_first;
-    for (const std::size_t i : members) {
-      out_.decisions[i] = decide(*out_.measurements[i], usual, options_.decision);
-      if (!out_.decisions[i].accepted()) worst_first.push_back(i);
-    }
-    if (worst_first.empty()) return {};
-    if (const Cut* contradicted = most_contradicted()) return smaller_side(*contradicted, members);
-    std::stable_sort(worst_first.begin(), worst_first.end(), [&](std::size_t x, std::size_t y) {
-      return out_.decisions[x].probability < out_.decisions[y].probability;
-    });
-    std::vector<std::size_t> leaving;
-    std::vector<bool> is_touched(scans_.size(), false);  // does not pass, or is linked to what does not
-    for (const std::size_t i : worst_first) {
-      const std::vector<std::size_t> part = leaving_with(i, members);
-      const bool waits = std::any_of(part.begin(), part.end(), [&](std::size_t j) { return is_touched[j]; }) ||
-                         (!leaving.empty() && 2 * part.size() > members.size() - leaving.size());
-      if (!waits) leaving.insert(leaving.end(), part.begin(), part.end());
-      std::vector<bool> fails(scans_.size(), false);
-      for (const std::size_t j : part) is_touched[j] = fails[j] = true;
-      for (const auto& [a, b] : out_.pairs) {
-        if (fails[a] || fails[b]) is_touched[a] = is_touched[b] = true;
-      }
-    }
-    return leaving;
-  }
-
-  // What the pairs across speak against, as poses are adjusted: hypotheses hung it there that the others do not bear
-  // out. Wherever it belongs, it spoils what is measured of its neighbours here.
-  const Cut* most_contradicted() const {
-    const Cut* worst = nullptr;
-    for (const Cut& cut : cuts_) {
-      const bool fails =
-          std::any_of(cut.moved.begin(), cut.moved.end(), [&](std::size_t i) { return !out_.decisions[i].accepted(); });
-      if (cut.support >= 0 || !fails) continue;
-      const bool is_worse = worst == nullptr || cut.support < worst->support ||
-                            (cut.support == worst->support && cut.moved.size() > worst->moved.size());
-      if (is_worse) worst = &cut;
-    }
-    return worst;
-  }
-
-  // What may lie elsewhere leaves as a whole.
-  std::vector<std::size_t> leaving_with(std::size_t scan, const std::vector<std::size_t>& members) const {
-    const Cut* cut = weakest_cut_of(scan);
-    if (out_.decisions[scan].reason != Reason::kAmbiguous || cut == nullptr) return {scan};
-    return smaller_side(*cut, members);
-  }
-
-  // Of two parts that may lie elsewhere to one another, the larger stays.
-  static std::vector<std::size_t> smaller_side(const Cut& cut, const std::vector<std::size_t>& members) {
-    if (2 * cut.moved.size() <= members.size()) return cut.moved;
-    std::vector<std::size_t> others;
-    std::set_difference(members.begin(), members.end(), cut.moved.begin(), cut.moved.end(), std::back_inserter(others));
-    return others;
+    for (const std::size_t i : members) out_.decisions[i] = decide(*out_.measurements[i], usual, options_.decision);
+    return leaving_scans(members, out_.decisions, cuts_, out_.pairs);
   }
 
   void choose_another_reference() {
@@ -343,6 +257,7 @@ class Settling {
   ScanPairs overlapping_;  // of members, those that the adjustment leaves out, too
   StartingPoses poses_are_ = StartingPoses::kInferred;
   std::map<ScanPairs::value_type, MeasuredAt> measured_;
+  std::vector<ComparedPair> there_;  // what they show where they are, as far as that tells
   std::vector<Cut> cuts_;
 };
 
