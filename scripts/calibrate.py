@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Fits the models that tell how likely a link and a scan's place are right, to simulated scans that anyone can make.
 
-  calibrate.py --out DIR [--exe TCM_ICP] [--seeds 1 2 3] [--jobs 2] [--only links|scans|scatter] [--check] [--dry-run]
+  calibrate.py --out DIR [--exe TCM_ICP] [--seeds 1 2 3] [--jobs 2] [--only links|scans|calibration|scatter] [--check] [--dry-run]
 
 Makes sets of every simulated scene with several sensors (calibration/sets.py), as they are, thinned, cropped, cluttered,
 a few scans alone, with passers-by, a mirrored scan and scans of other scenes; registers each with `--confidence 0`, so that
@@ -9,6 +9,9 @@ wrong places are reported, too; fits, and writes lib/src/links/link_model.inc, l
 docs/results/calibration.csv and docs/images/reliability.png. Figures are of scenes left out of the fit, one at a time.
 Decisions follow from links: after a change of the link model build the program and run again with --only scans, which leaves
 the link model as it is. Figures and diagram are of both in either case.
+The decisions' model sees one kind of scene left out of the fit at a time, the program all at once, and evidence that was added
+since: --only calibration fits shift and slope of the log-odds that the program built with it states, and writes
+lib/src/decision/scan_calibration.inc and docs/images/decisions-reliability.png alone. Whatever was fitted before, build and do this last.
 --only scatter writes docs/results/implied-hypotheses.csv, what fits show that start from right poses and from wrong ones, and
 nothing else: figures in inference_options.hpp are set by it.
 --check fits nothing: it writes docs/results/decisions-unseen.csv, how the probabilities hold that the program states, which is a
@@ -38,6 +41,7 @@ ROOT = Path(__file__).resolve().parent.parent
 PLACE = ("lead", "log_lead", "log_lead_a_pair", "lead_by_set")
 FOR = PLACE + ("log_overlap", "log_inlier_share", "inliers_by_set", "few_agree")
 AGAINST = ("residual_by_set", "weakest_left", "mean_left", "left_across", "violations", "opposed", "sigma")
+CALIBRATION = ROOT / "lib/src/decision/scan_calibration.inc"
 RIDGE = 2.0
 SPREAD = 0.5  # of sets' own constants in log-odds; of 0, 0.5, 1 and 2 best where each run then learns its own
 
@@ -70,6 +74,11 @@ def register_all(options, folder):
     with ThreadPoolExecutor(options.jobs) as pool:
         list(pool.map(register, [d for d in sorted(folder.iterdir()) if (d / "truth.json").exists()]))
     return results
+
+
+def log_odds_of(probabilities):
+    p = np.clip(probabilities, 1e-9, 1 - 1e-9)
+    return np.log(p / (1 - p))
 
 
 def names_of(header, array):
@@ -138,7 +147,34 @@ def fit_scans(options, folder, results):
         f"    {braces(np.median(X[y > 0], 0))}}};\n")
     if options.only != "links":
         (ROOT / "lib/src/decision/scan_model.inc").write_text(text)
+        write_calibration("// None: the model's own fit. `scripts/calibrate.py --only calibration` makes one.\n", 0, 1)
     return [figures("scan", logistic.held_out(model, X, y, scene, name_of_set), y)]
+
+
+def write_calibration(text, shift, slope):
+    CALIBRATION.write_text(text + f"constexpr ScanCalibration kScanCalibration{{{shift:.5g}, {slope:.5g}}};\n")
+
+
+def calibrate_decisions(options, folder, results):
+    """By what the program states, which is by the calibration it has."""
+    stated, y, _, name_of_set = labels.load(folder, results, labels.probabilities)
+    shift, slope = map(float, re.search(r"kScanCalibration{(.+), (.+)};", CALIBRATION.read_text()).groups())
+    before = log_odds_of(stated[:, 0])
+    log_odds = (before - shift) / slope
+    _, seed = np.unique([name.rsplit("-", 1)[1] for name in name_of_set], return_inverse=True)
+    held_out = np.zeros(len(y))
+    for k in range(seed.max() + 1):
+        a, b = logistic.rescale(log_odds[seed != k], y[seed != k]) if seed.max() > 0 else (shift, slope)
+        held_out[seed == k] = a + b * log_odds[seed == k]
+    shift, slope = logistic.rescale(log_odds, y)
+    tables = [figures(name, values, y) for name, values in (("as stated before", before), ("each seed held out", held_out))]
+    for table, _ in tables:
+        print(", ".join(f"{k} {v}" for k, v in table.items()))
+    draw(tables, "decisions-reliability")
+    command = f"scripts/calibrate.py --seeds {' '.join(map(str, options.seeds))} --only calibration"
+    write_calibration(f"// Made by `{command}` on {datetime.date.today()}; not to be changed by hand.\n"
+                      f"// Fitted to what the program stated of {len(y)} simulated decisions ({int(y.sum())} right).\n",
+                      shift, slope)
 
 
 def publish(options, name, rows):
@@ -159,8 +195,7 @@ def tell_scatter(options, folder, results):
 def check(options, folder, results):
     """How many of the decisions that the program states at a probability and more are right."""
     stated, y, _, name_of_set = labels.load(folder, results, labels.probabilities)
-    p = np.clip(stated[:, 0], 1e-9, 1 - 1e-9)
-    log_odds = np.log(p / (1 - p))
+    p, log_odds = stated[:, 0], log_odds_of(stated[:, 0])
     rows = [("Stated at least", "Decisions", "Right", "Wrong", "Of all that are right [%]")]
     for least in (0, 0.5, 0.7, 0.8, 0.9, 0.95, 0.99, 0.999):
         passes = p >= least
@@ -172,7 +207,7 @@ def check(options, folder, results):
           f"calibration error {logistic.reliability(log_odds, y)[1]:.4f}")
 
 
-def draw(tables):
+def draw(tables, name):
     try:
         from matplotlib import pyplot
 
@@ -187,7 +222,7 @@ def draw(tables):
         axis.scatter(stated, observed, s=3 + 8 * np.log10(count), color="#1f5fa8")
         axis.set(title=f"{table['model']} (error {table['calibration_error']})", xlabel="stated probability",
                  ylabel="observed share", xlim=(0, 1), ylim=(0, 1))
-    save(figure, ROOT / "docs/images/reliability.png")
+    save(figure, ROOT / f"docs/images/{name}.png")
 
 
 def main():
@@ -196,7 +231,7 @@ def main():
     parser.add_argument("--exe", default=str(ROOT / "build/release/app/tcm-icp"))
     parser.add_argument("--seeds", type=int, nargs="+", default=[1, 2, 3])
     parser.add_argument("--jobs", type=int, default=2)
-    parser.add_argument("--only", choices=("links", "scans", "scatter"), help="what is written")
+    parser.add_argument("--only", choices=("links", "scans", "calibration", "scatter"), help="what is written")
     parser.add_argument("--check", action="store_true", help="fit nothing: judge what the program states")
     parser.add_argument("--dry-run", action="store_true", help="say how many sets there are, and stop")
     options = parser.parse_args()
@@ -210,6 +245,9 @@ def main():
     if options.check:
         check(options, folder, results)
         return
+    if options.only == "calibration":
+        calibrate_decisions(options, folder, results)
+        return
     if options.only == "scatter":
         tell_scatter(options, folder, results)
         return
@@ -220,7 +258,7 @@ def main():
         writer = csv.DictWriter(f, tables[0][0].keys())
         writer.writeheader()
         writer.writerows(t for t, _ in tables)
-    draw(tables)
+    draw(tables, "reliability")
 
 
 if __name__ == "__main__":

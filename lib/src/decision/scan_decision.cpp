@@ -30,6 +30,15 @@ struct ScanModel {
 
 #include "scan_model.inc"
 
+// From the model's log-odds to what the program finds to hold (Platt, 1999): evidence was added since the model was
+// fitted.
+struct ScanCalibration {
+  double shift, slope;
+  double probability(double log_odds) const { return 1 / (1 + std::exp(-(shift + slope * log_odds))); }
+};
+
+#include "scan_calibration.inc"
+
 constexpr double kMostLead = 40, kLeastLead = -10, kMostLeadAPair = 1000;
 constexpr double kLeastSigma = 0.01, kMostSigma = 2;  // in coarse voxels
 constexpr std::size_t kNumReasons = static_cast<std::size_t>(Reason::kTooFewPoints) + 1;
@@ -129,7 +138,7 @@ Decision decide(const ScanMeasurements& m, const ComponentReference& component, 
     return decision;
   }
   const DecisionFeatures& f = decision.features;
-  decision.probability = 1 / (1 + std::exp(-kScanModel.log_odds(f)));
+  decision.probability = kScanCalibration.probability(kScanModel.log_odds(f));
   if (decision.probability >= options.confidence) {
     decision.reason = Reason::kAccepted;
   } else {
