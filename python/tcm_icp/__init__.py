@@ -109,7 +109,7 @@ def _survey(scans: _core.Scans, control: Union[None, str, "os.PathLike[str]", Se
 
 
 def register(scans: Union[Sequence[ScanLike], Mapping[str, ScanLike]], *, profile: Profile = Profile.ROBUST,
-             confidence: float = 0.85, reference: str = "", level: bool = False,
+             confidence: float = 0.8, reference: str = "", level: bool = False,
              outliers: OutlierMethod = OutlierMethod.KMEANS,
              control: Union[None, str, "os.PathLike[str]", Sequence[ControlPoint]] = None,
              gnss: Union[None, str, "os.PathLike[str]"] = None, fixed: Sequence[str] = (), crs: str = "",

@@ -34,7 +34,7 @@ enum class Reason {
 };
 
 /// Least probability of a scan that counts as registered, unless another is asked for.
-inline constexpr double kLeastConfidence = 0.85;
+inline constexpr double kLeastConfidence = 0.8;
 
 /// "reference", "registered", "unregistered", as poses.json has it.
 std::string_view to_string(ScanStatus status);
