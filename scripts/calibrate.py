@@ -9,9 +9,9 @@ wrong places are reported, too; fits, and writes lib/src/links/link_model.inc, l
 docs/results/calibration.csv and docs/images/reliability.png. Figures are of scenes left out of the fit, one at a time.
 Decisions follow from links: after a change of the link model build the program and run again with --only scans, which leaves
 the link model as it is. Figures and diagram are of both in either case.
-The decisions' model sees one kind of scene left out of the fit at a time, the program all at once, and evidence that was added
-since: --only calibration fits shift and slope of the log-odds that the program built with it states, and writes
-lib/src/decision/scan_calibration.inc and docs/images/decisions-reliability.png alone. Whatever was fitted before, build and do this last.
+Evidence that was added since the decisions' model was fitted makes its probabilities too low or too high: --only calibration fits
+shift and slope of the log-odds that the program states, by two seeds or more, and writes lib/src/decision/scan_calibration.inc
+and docs/images/decisions-reliability.png alone. Whatever was fitted before, build and do this last.
 --only scatter writes docs/results/implied-hypotheses.csv, what fits show that start from right poses and from wrong ones, and
 nothing else: figures in inference_options.hpp are set by it.
 --check fits nothing: it writes docs/results/decisions-unseen.csv, how the probabilities hold that the program states, which is a
@@ -164,7 +164,7 @@ def calibrate_decisions(options, folder, results):
     _, seed = np.unique([name.rsplit("-", 1)[1] for name in name_of_set], return_inverse=True)
     held_out = np.zeros(len(y))
     for k in range(seed.max() + 1):
-        a, b = logistic.rescale(log_odds[seed != k], y[seed != k]) if seed.max() > 0 else (shift, slope)
+        a, b = logistic.rescale(log_odds[seed != k], y[seed != k])
         held_out[seed == k] = a + b * log_odds[seed == k]
     shift, slope = logistic.rescale(log_odds, y)
     tables = [figures(name, values, y) for name, values in (("as stated before", before), ("each seed held out", held_out))]
@@ -235,6 +235,8 @@ def main():
     parser.add_argument("--check", action="store_true", help="fit nothing: judge what the program states")
     parser.add_argument("--dry-run", action="store_true", help="say how many sets there are, and stop")
     options = parser.parse_args()
+    if options.only == "calibration" and len(set(options.seeds)) < 2:
+        parser.error("--only calibration holds each seed out in turn: give --seeds two or more")
     count = len(options.seeds) * len(sets.SCENES) * len(sets.VARIANTS)
     print(f"{count} sets, about {7 * count / options.jobs / 60:.0f} minutes")
     if options.dry_run:

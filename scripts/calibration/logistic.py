@@ -34,14 +34,8 @@ def fit(X, y, group, ridge=1.0, spread=1.0):
 
 def rescale(log_odds, y):
     """Shift and slope with which log-odds state probabilities that hold (Platt, 1999), by maximum likelihood."""
-    Z, b = np.c_[np.ones(len(y)), log_odds], np.array([0.0, 1.0])
-    for _ in range(100):
-        p = 1 / (1 + np.exp(-np.clip(Z @ b, -40, 40)))
-        step = np.linalg.solve((Z * (p * (1 - p))[:, None]).T @ Z + 1e-9 * np.eye(2), Z.T @ (p - y))
-        b -= np.clip(step, -1, 1)
-        if abs(step).max() < 1e-10:
-            break
-    return b
+    shift, slope = fit(log_odds[:, None], y, np.zeros(len(y)), ridge=0, spread=1e-6)  # no constants of groups
+    return shift, slope[0]
 
 
 class Split:

@@ -83,7 +83,7 @@ class HypothesisSet {
   /// @param there             compared_there() of some of the pairs
   std::vector<std::pair<std::size_t, std::size_t>> without_unlikely(
       std::vector<std::pair<std::size_t, std::size_t>> pairs, const std::vector<Eigen::Isometry3d>& T_reference_scan,
-      const std::vector<ComparedPair>& there = {}) const;
+      const std::vector<ComparedPair>& there) const;
 
  private:
   PoseHypothesis pose_of(const LinkHypothesis& h) const;
