@@ -179,10 +179,9 @@ def calibrate_decisions(options, folder, results):
 
 def publish(options, name, rows):
     """A table of docs/results, with its origin, and on the terminal."""
-    found = origin(options.exe)  # before the table itself is a change that is not committed
     with open(ROOT / f"docs/results/{name}.csv", "w", newline="") as f:
         csv.writer(f).writerows(rows)
-    add_tables(ROOT / "docs/results", {name: found})
+    add_tables(ROOT / "docs/results", {name: origin(options.exe)})
     for row in rows:
         print(*row, sep=", ")
 

@@ -24,9 +24,8 @@ except ImportError:
 
 from paper.executable import find_exe
 from paper.pictures import frame, moved, thinned
-from paper.plan import Extent
 from paper.print_size import PAGE_IN, save
-from paper.provenance import REPOSITORY, record_tables, write_provenance
+from paper.provenance import REPOSITORY, add_tables, origin
 from ply import read_points
 
 # Kind: what to simulate.
@@ -99,9 +98,10 @@ def main():
     header = ["Kind", "Scans", "Right", "Flagged", "Wrong", "Largest RMS of a placed scan [m]", "Set"]
     with open(options.out / "failures.csv", "w", newline="", encoding="utf-8") as f:
         csv.writer(f).writerows([header, *rows])
-    found = write_provenance(options.out, exe, Extent("failures", (1,), (), (), COMMON, 0))
+    origins = {"failures": origin(exe)}
+    add_tables(options.out, origins)
     if options.docs:
-        record_tables(REPOSITORY / "docs" / "results", ["failures"], found)
+        add_tables(REPOSITORY / "docs" / "results", origins)
         shutil.copy(options.out / "failures.csv", REPOSITORY / "docs" / "results")
         for kind in KINDS:
             shutil.copy(options.out / f"failure-{kind}.png", REPOSITORY / "docs" / "images")

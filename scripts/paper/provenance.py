@@ -40,15 +40,19 @@ def program(exe):
     return {"version": output_of(str(Path(exe).resolve()), "--version"), "sha256": program_id(exe)}
 
 
+def code():
+    """The command, and the commit it ran. Tables and pictures that it may have written by then are no change of the code."""
+    status = output_of("git", "status", "--porcelain", "--untracked-files=no", "--", ".", ":!docs/results", ":!docs/images")
+    return {"command": "scripts/" + Path(sys.argv[0]).name + " " + " ".join(sys.argv[1:]),
+            "commit": output_of("git", "rev-parse", "HEAD"), "uncommitted_changes": status != ""}
+
+
 def provenance(exe, extent, conventional_exe=None):
     import matplotlib
     import numpy
-    return {"command": "scripts/" + Path(sys.argv[0]).name + " " + " ".join(sys.argv[1:]),
-            "extent": extent.name, "seeds": list(extent.seeds), "levels_percent": list(extent.levels),
+    return {**code(), "extent": extent.name, "seeds": list(extent.seeds), "levels_percent": list(extent.levels),
             "register_options": list(extent.register), "simulate_options": list(extent.simulate),
             "cpu_limit_s": extent.time_limit_s,
-            "commit": output_of("git", "rev-parse", "HEAD"),
-            "uncommitted_changes": output_of("git", "status", "--porcelain", "--untracked-files=no") != "",
             "program": program(exe), "program_of_icp_and_features": program(conventional_exe or exe),
             "pcl": pcl_version(), "python": platform.python_version(), "numpy": numpy.__version__,
             "matplotlib": matplotlib.__version__, "processor": processor(), "cores": os.cpu_count()}
@@ -83,10 +87,7 @@ def origin(exe):
     import numpy
     versions = {name: output_of("dpkg-query", "-W", "-f", "${Version}", package)
                 for name, package in (("pcl", "libpcl-dev"), ("open3d", "python3-open3d"), ("cloudcompare", "cloudcompare"))}
-    return {"command": "scripts/" + Path(sys.argv[0]).name + " " + " ".join(sys.argv[1:]),
-            "commit": output_of("git", "rev-parse", "HEAD"),
-            "uncommitted_changes": output_of("git", "status", "--porcelain", "--untracked-files=no") != "",
-            "program": program(exe), **versions, "python": platform.python_version(), "numpy": numpy.__version__,
+    return {**code(), "program": program(exe), **versions, "python": platform.python_version(), "numpy": numpy.__version__,
             "processor": processor()}
 
 

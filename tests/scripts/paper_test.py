@@ -3,6 +3,8 @@
 import io
 import json
 import os
+import shutil
+import subprocess
 import sys
 import tempfile
 import unittest
@@ -12,6 +14,7 @@ from unittest import mock
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent.parent / "scripts"))
 
+from paper import provenance
 from paper.cells import CellStore, cell_name
 from paper.executable import NO_BASELINES, find_exe, require_baselines
 from paper.findings import finding
@@ -24,6 +27,23 @@ from paper.readings import DEFAULT, READINGS
 from paper.scenes import PAPER_SETS, own_sets
 from paper.summary import number, ratios, summarize
 from paper.table_rows import table
+
+
+@unittest.skipUnless(shutil.which("git"), "needs git")
+class Provenance(unittest.TestCase):
+    def test_a_table_that_was_made_is_no_change_of_the_code_and_a_script_is(self):
+        with tempfile.TemporaryDirectory() as folder, mock.patch.object(provenance, "REPOSITORY", Path(folder)):
+            table, script = Path(folder, "docs/results/table.csv"), Path(folder, "scripts/make.py")
+            for path in (table, script):
+                path.parent.mkdir(parents=True)
+                path.write_text("1\n")
+            for command in (["init", "-q"], ["add", "."], ["commit", "-q", "-m", "both"]):
+                subprocess.run(["git", "-c", "user.name=n", "-c", "user.email=n@n.n", *command], cwd=folder, check=True)
+            self.assertFalse(provenance.code()["uncommitted_changes"])
+            table.write_text("2\n")
+            self.assertFalse(provenance.code()["uncommitted_changes"])
+            script.write_text("2\n")
+            self.assertTrue(provenance.code()["uncommitted_changes"])
 
 
 class Cells(unittest.TestCase):
