@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
+#include <utility>
 
 #include "inference/hypothesis_world.hpp"
 #include "support/synthetic_scene.hpp"
@@ -66,6 +68,24 @@ TEST(MinimumCuts, AreAmongThemForAnyTwoNodes) {
         EXPECT_NEAR(least_cut_among(cuts, edges, kNodes, a, b), least_cut(edges, kNodes, a, b), kRounding)
             << a << " and " << b << " in graph " << graph;
       }
+    }
+  }
+}
+
+// Flows turn back on longer and longer detours there, and meet far from either end.
+TEST(MinimumCuts, AreAmongThemWhereWaysAreLong) {
+  constexpr std::size_t kNodes = 14;
+  Nodes all(kNodes);
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  Rng rng = make_stream(2, "minimum_cuts_test");
+  for (int graph = 0; graph < 10; ++graph) {
+    std::vector<WeightedEdge> ladder;
+    for (std::size_t i = 0; i + 2 < kNodes; ++i) ladder.push_back({between(0.1, 9, rng), i, i + 2});
+    for (std::size_t i = 0; i < kNodes; i += 2) ladder.push_back({between(0.1, 9, rng), i, i + 1});
+    const auto cuts = minimum_cuts(ladder, all, 3);
+    for (const auto [a, b] : {std::pair<std::size_t, std::size_t>{0, 13}, {0, 12}, {1, 12}, {4, 13}, {5, 6}}) {
+      EXPECT_NEAR(least_cut_among(cuts, ladder, kNodes, a, b), least_cut(ladder, kNodes, a, b), kRounding)
+          << a << " and " << b << " in graph " << graph;
     }
   }
 }
