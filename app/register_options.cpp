@@ -359,7 +359,8 @@ po::options_description configurable(RegisterOptions& o, Choices& c) {
       "lp.max-seconds", value(p.lp.lp.max_seconds), "[s] longest time of one program")(
       "lp.coarse-points", value(p.samples.coarse_points), "points of a scan in the coarse programs")(
       "lp.fine-points", value(p.samples.fine_points), "points of a scan in the fine programs")(
-      "lp.held-out-points", value(p.samples.held_out_points), "points kept from every fit, for verification")(
+      "lp.held-out-points", value(p.samples.held_out_points),
+      "points for verification, kept from every fit where there are enough")(
       "refinement", value(c.refinement),
       "of fits to the merged cloud: none, descent, annealing, both; auto: both in the paper's profile, none in robust, "
       "where scans are not fitted to it but adjusted jointly")("refinement.points", value(p.refinement.points),

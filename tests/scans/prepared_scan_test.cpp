@@ -41,6 +41,7 @@ TEST(PrepareScan, HeldOutPointsAreInNoFit) {
   auto both = as_set(scan.fit_sample.points);
   both.merge(as_set(scan.held_out_sample.points));
   EXPECT_EQ(both.size(), 1200u);
+  EXPECT_EQ(scan.verification_sample.points, scan.held_out_sample.points) << "there are enough";
 }
 
 TEST(PrepareScan, SmallScansAreSharedInTheProportionAskedFor) {
@@ -51,11 +52,29 @@ TEST(PrepareScan, SmallScansAreSharedInTheProportionAskedFor) {
   EXPECT_EQ(scan.held_out_sample.size(), total / 3);
 }
 
+TEST(PrepareScan, AllPointsOfASmallScanVerify) {
+  const PreparedScan scan = prepare(yard(2, 400), {});
+  auto all = as_set(scan.fit_sample.points);
+  all.merge(as_set(scan.held_out_sample.points));
+  EXPECT_EQ(as_set(scan.verification_sample.points), all);
+}
+
+TEST(PrepareScan, AsManyPointsOfAScanVerifyAsAreAskedForBeginningWithThoseInNoFit) {
+  SampleSizes options;
+  options.fine_points = 3000;
+  options.held_out_points = 150;
+  const PreparedScan scan = prepare(yard(2, 400), options);
+  const auto verifying = as_set(scan.verification_sample.points);
+  EXPECT_EQ(scan.verification_sample.size(), 150u);
+  EXPECT_LT(scan.held_out_sample.size(), 150u);
+  for (const auto& p : as_set(scan.held_out_sample.points)) EXPECT_TRUE(verifying.contains(p));
+}
+
 TEST(PrepareScan, FitsAndVerificationUseSurfacesOnly) {
   SampledScan scan = sampled(yard(3), "a.ply");
   for (std::size_t i = 0; i < scan.is_surface.size(); i += 2) scan.is_surface[i] = 0;  // rough places
   const PreparedScan prepared = prepare_scan(scan, choose_resolutions({scan}, {}, 1), {}, 42);
-  for (const Cloud* const cloud : {&prepared.fit_sample, &prepared.held_out_sample, &prepared.fine_sample}) {
+  for (const Cloud* const cloud : {&prepared.fit_sample, &prepared.verification_sample, &prepared.fine_sample}) {
     ASSERT_FALSE(cloud->empty());
     for (const auto& n : cloud->normals) EXPECT_NEAR(n.norm(), 1, 1e-9);
   }

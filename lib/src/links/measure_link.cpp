@@ -15,7 +15,7 @@ AlignmentEvidence one_way(const PreparedScan& target, const PreparedScan& source
                           bool with_slides) {
   VerificationOptions options = verification_at(target.pyramid.level(0).voxel_size_m);
   options.with_slides = with_slides;
-  return verify_alignment(even_sample(source.held_out_sample, kPoints), target.pyramid.level(0), T, options);
+  return verify_alignment(even_sample(source.verification_sample, kPoints), target.pyramid.level(0), T, options);
 }
 
 // A pose that free space holds along a corridor is at the right place of it: at others as much is seen through walls as
@@ -24,7 +24,8 @@ AlignmentEvidence one_way(const PreparedScan& target, const PreparedScan& source
 FreeSpaceEvidence slid_space(const PreparedScan& a, const PreparedScan& b, const Eigen::Isometry3d& T_a_b) {
   if (!a.sight.sees_space() && !b.sight.sees_space()) return {};
   const SightedScan target{a.pyramid.level(0), a.sight}, source{b.pyramid.level(0), b.sight};
-  const Eigen::Vector3d axis = slide_axes(a.held_out_sample.normals, b.held_out_sample.normals, T_a_b.linear()).col(0);
+  const Eigen::Vector3d axis =
+      slide_axes(a.verification_sample.normals, b.verification_sample.normals, T_a_b.linear()).col(0);
   FreeSpaceEvidence ways[2];
   for (int way = 0; way < 2; ++way) {
     for (const double voxels : kTrialSlides) {

@@ -33,7 +33,7 @@ ScanMeasurements measure_scan(const std::vector<PreparedScan>& scans, std::size_
     const std::size_t other = neighbors[k].second;
     cloud.add(scans[other].pyramid.level(0).cloud, T[other]);
   }
-  out.evidence = verify_alignment(even_sample(scans[scan].held_out_sample, kUnionPoints), cloud.level(), T[scan],
+  out.evidence = verify_alignment(even_sample(scans[scan].verification_sample, kUnionPoints), cloud.level(), T[scan],
                                   verification_at(voxel_m));
   return out;
 }

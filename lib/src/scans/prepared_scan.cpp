@@ -27,9 +27,11 @@ Cloud draw(const Cloud& cloud, double voxel_size_m, int count, std::uint64_t see
   return pick(cloud, normal_space_sample(cloud, static_cast<std::size_t>(count), priorities));
 }
 
-// Splits one draw so that no held-out point is in the fit.
+// Splits one draw so that no held-out point is in the fit. Where a scan has fewer points than both ask for, a pose is
+// judged by those of the fit as well: a fit of six unknowns takes next to nothing from hundreds of points, and a
+// hundred alone leave it to the draw which place looks best.
 void draw_fit_and_held_out(const PyramidLevel& level, const SampleSizes& options, std::uint64_t seed,
-                           const std::string& key, Cloud& fit, Cloud& held_out) {
+                           const std::string& key, PreparedScan& out) {
   Rng rng = make_stream(seed, "fit and held-out points", key);
   const auto wanted = static_cast<std::size_t>(options.fine_points + options.held_out_points);
   const Cloud& cloud = level.cloud;
@@ -37,11 +39,14 @@ void draw_fit_and_held_out(const PyramidLevel& level, const SampleSizes& options
   // In the proportion asked for, also where the cloud has fewer points than that.
   const std::size_t num_held_out = drawn.size() * static_cast<std::size_t>(options.held_out_points) / wanted;
   // Other numbers than those that decided what is drawn.
-  const auto chosen = least_priorities(drawn, place_priorities(cloud.points, level.voxel_size_m, rng), num_held_out);
+  const auto priorities = place_priorities(cloud.points, level.voxel_size_m, rng);
+  const auto chosen = least_priorities(drawn, priorities, num_held_out);
   std::vector<std::size_t> in_fit;
   std::set_difference(drawn.begin(), drawn.end(), chosen.begin(), chosen.end(), std::back_inserter(in_fit));
-  fit = pick(cloud, in_fit);
-  held_out = pick(cloud, chosen);
+  out.fit_sample = pick(cloud, in_fit);
+  out.held_out_sample = pick(cloud, chosen);
+  const std::size_t num_verifying = std::min(drawn.size(), static_cast<std::size_t>(options.held_out_points));
+  out.verification_sample = pick(cloud, least_priorities(drawn, priorities, num_verifying));
 }
 
 // Rough places without a normal.
@@ -104,12 +109,13 @@ PreparedScan prepare_scan(const SampledScan& scan, const Resolutions& resolution
                    {},
                    {},
                    {},
+                   {},
                    {}};
   const std::string key = stream_key(scan.scan);
   out.coarse_sample = draw(voxel_downsample(scan.scan.cloud, resolutions.coarse_m), resolutions.coarse_m,
                            options.coarse_points, seed, "coarse points", key);
-  draw_fit_and_held_out(out.pyramid.level(0), options, seed, key, out.fit_sample, out.held_out_sample);
-  out.moments = out.held_out_sample.points;
+  draw_fit_and_held_out(out.pyramid.level(0), options, seed, key, out);
+  out.moments = out.verification_sample.points;
   out.fine_sample = draw(out.fine.cloud, resolutions.fine_m, options.fine_points, seed, "fine points", key);
   out.key = key;
   out.ball = Ball(scan.scan.cloud.points);

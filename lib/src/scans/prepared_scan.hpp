@@ -34,17 +34,18 @@ struct Ball {
 };
 
 struct PreparedScan {
-  ScanPyramid pyramid;    ///< from the coarse voxel upwards; surface normals
-  PyramidLevel fine;      ///< fine voxel; surface normals
-  Cloud coarse_sample;    ///< for coarse programs: every kind of point
-  Cloud fit_sample;       ///< for fine programs: surfaces, at the coarse voxel
-  Cloud held_out_sample;  ///< surfaces at the coarse voxel; in no fit
-  PointMoments moments;   ///< of held_out_sample
-  Cloud fine_sample;      ///< surfaces at the fine voxel, for the adjustment
-  std::string key;        ///< of random numbers: stream_key()
-  Ball ball;              ///< all its points lie in it
-  Sight sight{};          ///< none until make_sights(); groups of scans have none
-  std::string digest{};   ///< of all that this and the sight depend on; empty without a work folder
+  ScanPyramid pyramid;        ///< from the coarse voxel upwards; surface normals
+  PyramidLevel fine;          ///< fine voxel; surface normals
+  Cloud coarse_sample;        ///< for coarse programs: every kind of point
+  Cloud fit_sample;           ///< for fine programs: surfaces, at the coarse voxel
+  Cloud held_out_sample;      ///< surfaces at the coarse voxel; in no fit
+  Cloud verification_sample;  ///< the same, and as many more as were asked for, where there are too few of them
+  PointMoments moments;       ///< of verification_sample
+  Cloud fine_sample;          ///< surfaces at the fine voxel, for the adjustment
+  std::string key;            ///< of random numbers: stream_key()
+  Ball ball;                  ///< all its points lie in it
+  Sight sight{};              ///< none until make_sights(); groups of scans have none
+  std::string digest{};       ///< of all that this and the sight depend on; empty without a work folder
 };
 
 /// The median over the scans of the voxel edge at which a scan has the wanted number of voxels.

@@ -18,7 +18,7 @@ struct SamplingOptions {
 struct SampleSizes {
   int coarse_points = 1500;    ///< >= 100; points of a scan in its coarse linear programs
   int fine_points = 3000;      ///< >= 100; and in the finer ones
-  int held_out_points = 1500;  ///< >= 100; points kept from every fit, for verification
+  int held_out_points = 1500;  ///< >= 100; points for verification, kept from every fit where there are enough
   void validate() const;       ///< throws InvalidOptions
 };
 
