@@ -83,7 +83,7 @@ TEST(MinimumCuts, AreAmongThemWhereWaysAreLong) {
     for (std::size_t i = 0; i + 2 < kNodes; ++i) ladder.push_back({between(0.1, 9, rng), i, i + 2});
     for (std::size_t i = 0; i < kNodes; i += 2) ladder.push_back({between(0.1, 9, rng), i, i + 1});
     const auto cuts = minimum_cuts(ladder, all, 3);
-    for (const auto [a, b] : {std::pair<std::size_t, std::size_t>{0, 13}, {0, 12}, {1, 12}, {4, 13}, {5, 6}}) {
+    for (const auto& [a, b] : {std::pair<std::size_t, std::size_t>{0, 13}, {0, 12}, {1, 12}, {4, 13}, {5, 6}}) {
       EXPECT_NEAR(least_cut_among(cuts, ladder, kNodes, a, b), least_cut(ladder, kNodes, a, b), kRounding)
           << a << " and " << b << " in graph " << graph;
     }
