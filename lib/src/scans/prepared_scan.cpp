@@ -30,8 +30,8 @@ Cloud draw(const Cloud& cloud, double voxel_size_m, int count, std::uint64_t see
 // Splits one draw so that no held-out point is in the fit. Where a scan has fewer points than both ask for, a pose is
 // judged by those of the fit as well: a fit of six unknowns takes next to nothing from hundreds of points, and a
 // hundred alone leave it to the draw which place looks best.
-void draw_fit_and_held_out(const PyramidLevel& level, const SampleSizes& options, std::uint64_t seed,
-                           const std::string& key, PreparedScan& out) {
+void draw_fit_and_verification(const PyramidLevel& level, const SampleSizes& options, std::uint64_t seed,
+                               const std::string& key, PreparedScan& out) {
   Rng rng = make_stream(seed, "fit and held-out points", key);
   const auto wanted = static_cast<std::size_t>(options.fine_points + options.held_out_points);
   const Cloud& cloud = level.cloud;
@@ -114,7 +114,7 @@ PreparedScan prepare_scan(const SampledScan& scan, const Resolutions& resolution
   const std::string key = stream_key(scan.scan);
   out.coarse_sample = draw(voxel_downsample(scan.scan.cloud, resolutions.coarse_m), resolutions.coarse_m,
                            options.coarse_points, seed, "coarse points", key);
-  draw_fit_and_held_out(out.pyramid.level(0), options, seed, key, out);
+  draw_fit_and_verification(out.pyramid.level(0), options, seed, key, out);
   out.moments = out.verification_sample.points;
   out.fine_sample = draw(out.fine.cloud, resolutions.fine_m, options.fine_points, seed, "fine points", key);
   out.key = key;
