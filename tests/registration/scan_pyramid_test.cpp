@@ -88,6 +88,13 @@ TEST(VoxelSizeFor, IsWhatBisectionFinds) {
   }
 }
 
+// A sort tells the counts down to a millionth of the diagonal, where all but the stray lie in a few voxels.
+TEST(VoxelSizeFor, IsFoundBesideAStrayPoint) {
+  Points points = yard(8).points;
+  points.emplace_back(1e9, 0, 0);
+  EXPECT_DOUBLE_EQ(voxel_size_for(points, 700), voxel_size_by_bisection(points, 700));
+}
+
 TEST(VoxelSizeFor, AsksForNoMoreThanHalfThePoints) {
   const Points points = yard(4).points;
   const std::size_t found = count_voxels(points, voxel_size_for(points, 1'000'000));

@@ -5,16 +5,16 @@
 
 #include "core/tie.hpp"
 #include "tcm_icp/core/error.hpp"
+#include "tcm_icp/core/voxel_octaves.hpp"
 #include "tcm_icp/core/voxel_sampler.hpp"
 
 namespace tcm_icp {
 namespace {
 
-constexpr int kSearchedHalvings = 4;   // beyond the first size that may be enough: scans are surfaces, not solids
-constexpr int kMaxHalvings = 40;       // 1e-12 of the diagonal
-constexpr int kSteps = 16;             // between two of them
-constexpr std::size_t kCountedTo = 4;  // times what is wanted: an octave has about four times the voxels
-constexpr double kCellVoxels = 5;      // of the index: distances that are asked of a level are up to that
+constexpr int kMaxHalvings = 40;     // 1e-12 of the diagonal
+constexpr int kSteps = 16;           // between two of them
+constexpr int kSortedHalvings = 20;  // at which one sort tells the counts; finer ones are of clouds with strays
+constexpr double kCellVoxels = 5;    // of the index: distances that are asked of a level are up to that
 
 // The least number in (below, enough] for which is_enough holds, which it does from there on. Asks for `guess` and its
 // neighbours first.
@@ -82,28 +82,22 @@ double voxel_size_for(const Points& points, std::size_t num_voxels) {
   int least = 0;
   for (double most = 2; most * most * most < static_cast<double>(wanted); most = 2 * most - 1) ++least;
 
-  // Such voxels nest, so that the answer does not depend on where the search begins. Each count tells where to go on.
-  int below = least - 1, enough = kMaxHalvings;
-  std::size_t count_below = 0, count_enough = 0;
-  for (int halvings = least + kSearchedHalvings; enough - below > 1;) {
-    const std::size_t count = count_voxels(points, std::ldexp(diagonal, -halvings), kCountedTo * wanted);
-    const int octaves = count > 0 && wanted > 0 ? static_cast<int>(std::abs(std::log2(ratio(count))) / 2) : 0;
-    if (count >= wanted) {
-      enough = halvings;
-      count_enough = count;
-      halvings -= std::max(octaves, 1);
-    } else {
-      below = halvings;
-      count_below = count;
-      halvings += octaves + 1;
-    }
-    halvings = std::clamp(halvings, below + 1, std::max(enough - 1, below + 1));
-  }
+  // Such voxels nest: one sort counts them at all these edges.
+  const std::vector<std::size_t> counts =
+      VoxelOctaves(points, (low + high) / 2, std::ldexp(diagonal, -kSortedHalvings)).counts();
+  const auto count_at = [&](int halvings) {
+    const std::size_t doublings = kSortedHalvings - halvings;
+    return halvings <= kSortedHalvings && doublings < counts.size()
+               ? counts[doublings]
+               : count_voxels(points, std::ldexp(diagonal, -halvings), wanted);
+  };
+  int enough = least;
+  while (enough < kMaxHalvings && count_at(enough) < wanted) ++enough;
   if (enough == 0) return diagonal;
   const double coarse_m = std::ldexp(diagonal, 1 - enough);
   int guess = kSteps / 2;
-  if (count_below > 0 && count_enough > 0) {
-    const double octave = std::log2(ratio(count_enough) / ratio(count_below));
+  if (const std::size_t count_below = enough > least ? count_at(enough - 1) : 0; count_below > 0) {
+    const double octave = std::log2(ratio(count_at(enough)) / ratio(count_below));
     guess = static_cast<int>(std::ceil(-kSteps * std::log2(ratio(count_below)) / octave));
   }
   const int step = first_enough(0, kSteps, guess,

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numbers>
+#include <utility>
 
 #include "tcm_icp/core/coverage.hpp"
 #include "tcm_icp/core/error.hpp"
@@ -12,6 +14,7 @@
 #include "tcm_icp/core/parallel.hpp"
 #include "tcm_icp/core/random.hpp"
 #include "tcm_icp/core/statistics.hpp"
+#include "tcm_icp/core/voxel_octaves.hpp"
 #include "tcm_icp/core/voxel_sampler.hpp"
 #include "tcm_icp/io/scan_path.hpp"
 #include "tcm_icp/io/scan_reader.hpp"
@@ -22,6 +25,7 @@ namespace {
 constexpr std::size_t kMinPoints = 3;
 constexpr double kSupportShare = 0.5;  // of the coverage: several points of a ring for each to the next ring
 constexpr double kNearlyAll = 0.7;
+constexpr double kFinestShare = 1.0 / 4096;  // of the extent: points are single there
 
 Eigen::Vector3d median_point(const Points& points) {
   std::vector<double> values(points.size());
@@ -69,13 +73,37 @@ VoxelSample stream_into_sample(const ScanInput& input, Scan& scan, std::size_t m
 
 // Along a ring points are so dense that a point's nearest neighbours are of one ring, spread by the noise of its
 // ranges: their plane is the scanner's, not the wall's. So planes are fitted to points as dense as surfaces are
-// covered, and a point takes the plane of the nearest of those.
-struct EvenPoints {
-  Points points;
-  NeighborIndex index;
+// covered, and a point takes the plane of the nearest of those. Where nearly all are left, they are even as they are.
+class EvenPoints {
+ public:
+  // Both have to outlive this.
+  EvenPoints(const Points& all, const NeighborIndex& index_of_all, double support_m) {
+    Points even = voxel_downsample({all, {}}, rounded_voxel_size(support_m)).points;
+    if (static_cast<double>(even.size()) > kNearlyAll * static_cast<double>(all.size())) {
+      points_ = &all;
+      index_ = &index_of_all;
+      return;
+    }
+    own_ = std::make_unique<Own>(std::move(even));
+    points_ = &own_->points;
+    index_ = &own_->index;
+  }
 
-  EvenPoints(const Points& all, double support_m)
-      : points(voxel_downsample({all, {}}, rounded_voxel_size(support_m)).points), index(points) {}
+  bool are_all() const { return own_ == nullptr; }
+  const Points& points() const { return *points_; }
+  const NeighborIndex& index() const { return *index_; }
+
+ private:
+  struct Own {
+    explicit Own(Points even) : points(std::move(even)), index(points) {}
+
+    Points points;
+    NeighborIndex index;
+  };
+
+  std::unique_ptr<const Own> own_;
+  const Points* points_;
+  const NeighborIndex* index_;
 };
 
 constexpr std::size_t kPlanesCompared = 1000;
@@ -97,16 +125,16 @@ bool are_planes_of_a_cone(const NormalEstimate& here, const NormalEstimate& next
 }
 
 // Moves the scan's coverage to where points cover surfaces.
-EvenPoints points_of_surfaces(Scan& scan) {
+EvenPoints points_of_surfaces(Scan& scan, const NeighborIndex& index) {
   const Points& points = scan.cloud.points;
   const Points queries = even_sample(points, kPlanesCompared);
   const auto planes = [&](const EvenPoints& even) {
-    return estimate_normals_at(queries, even.points, even.index, {}, 1);
+    return estimate_normals_at(queries, even.points(), even.index(), {}, 1);
   };
-  EvenPoints here(points, kSupportShare * scan.coverage_m);
+  EvenPoints here(points, index, kSupportShare * scan.coverage_m);
   NormalEstimate planes_here = planes(here);
   while (true) {
-    EvenPoints next(points, 2 * kSupportShare * scan.coverage_m);
+    EvenPoints next(points, index, 2 * kSupportShare * scan.coverage_m);
     NormalEstimate planes_next = planes(next);
     if (!are_planes_of_a_cone(planes_here, planes_next)) return here;
     here = std::move(next);
@@ -118,15 +146,13 @@ EvenPoints points_of_surfaces(Scan& scan) {
 NormalEstimate normals_of_surfaces(Scan& scan, const NeighborIndex& index, int num_threads) {
   const Points& points = scan.cloud.points;
   if (!(scan.coverage_m > 0)) return estimate_normals(points, index, {}, num_threads);
-  const EvenPoints even = points_of_surfaces(scan);
-  if (static_cast<double>(even.points.size()) > kNearlyAll * static_cast<double>(points.size())) {
-    return estimate_normals(points, index, {}, num_threads);  // they are even as they are
-  }
-  const NormalEstimate planes = estimate_normals(even.points, even.index, {}, num_threads);
+  const EvenPoints even = points_of_surfaces(scan, index);
+  NormalEstimate planes = estimate_normals(even.points(), even.index(), {}, num_threads);
+  if (even.are_all()) return planes;
   NormalEstimate out{Points(points.size()), std::vector<double>(points.size()), std::vector<double>(points.size())};
   parallel_for(num_threads, points.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      const std::size_t nearest = even.index.nearest(points[i]).index;
+      const std::size_t nearest = even.index().nearest(points[i]).index;
       out.normals[i] = planes.normals[nearest];
       out.variation[i] = planes.variation[nearest];
       out.roughness_m[i] = planes.roughness_m[nearest];
@@ -162,7 +188,9 @@ SampledScan sample_scan(const ScanInput& input, const SamplingOptions& sampling,
   scan.spacing_m = median_spacing(scan.cloud.points, index);
   out.middle = median_point(scan.cloud.points);
   scan.extent_m = robust_extent(scan.cloud.points, out.middle);
-  scan.coverage_m = scan.extent_m > 0 ? coverage_m(scan.cloud.points, scan.extent_m) : 0;
+  if (scan.extent_m > 0) {
+    scan.coverage_m = coverage_m(VoxelOctaves(scan.cloud.points, out.middle, kFinestShare * scan.extent_m));
+  }
   if (detail == ScanDetail::kPoints) return out;
   if (detail == ScanDetail::kViewpointClues) {
     out.clues.line_pieces = find_line_pieces(scan.cloud.points, index);

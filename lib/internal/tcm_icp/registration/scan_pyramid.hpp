@@ -42,7 +42,7 @@ class ScanPyramid {
 
 /// Voxel edge [m] at which the points occupy about `num_voxels` voxels, or half as many as there are points where that
 /// is fewer, to a sixteenth of an octave. Voxels are counted, because the spacing along a scan line says little about
-/// the area a scan covers. O(N) a count, about five counts.
+/// the area a scan covers. O(N) a count, about three counts and a sort.
 /// @throws InvalidInput  if all points are equal
 double voxel_size_for(const Points& points, std::size_t num_voxels);
 
