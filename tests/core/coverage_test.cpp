@@ -16,7 +16,7 @@ using Eigen::Vector3d;
 
 constexpr double kExtent_m = 20;
 
-// Of points about the origin, or wherever: what is counted begins far below what they may cover.
+// Counted from a 4096th of the extent on, as those of scans are.
 double coverage_of(const Points& points, double extent_m) {
   return coverage_m(VoxelOctaves(points, Vector3d::Zero(), extent_m / 4096));
 }

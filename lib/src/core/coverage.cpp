@@ -90,7 +90,6 @@ bool are_left_out(const Isolation& here, const Isolation& below) {
 }  // namespace
 
 double coverage_m(const VoxelOctaves& voxels) {
-  double edge_m = voxels.finest_m();
   Octave octave(voxels.finest());
   double dimension_below = 0;  // one octave
   Isolation below{1};
@@ -102,12 +101,11 @@ double coverage_m(const VoxelOctaves& voxels) {
     if (dimension > kLine) {
       // Counts at an edge and at twice as much tell the dimension half-way between, which is where it is reached.
       const double share = (kLine - dimension_below) / (dimension - dimension_below);
-      return edge_m * std::exp2(share - 0.5);
+      return std::ldexp(voxels.finest_m(), num_doublings - 1) * std::exp2(share - 0.5);
     }
     dimension_below = dimension;
     below = here;
     octave = Octave(octave.coarse());
-    edge_m *= 2;
   }
 }
 

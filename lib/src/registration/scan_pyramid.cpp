@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kMaxHalvings = 40;     // 1e-12 of the diagonal
 constexpr int kSteps = 16;           // between two of them
-constexpr int kSortedHalvings = 20;  // at which one sort tells the counts; finer ones are of clouds with strays
+constexpr int kSortedHalvings = 19;  // at which one sort tells the counts; finer ones are of clouds with strays
 constexpr double kCellVoxels = 5;    // of the index: distances that are asked of a level are up to that
 
 // The least number in (below, enough] for which is_enough holds, which it does from there on. Asks for `guess` and its
@@ -78,26 +78,25 @@ double voxel_size_for(const Points& points, std::size_t num_voxels) {
   if (!(diagonal > 0)) throw InvalidInput("all points of a cloud are equal: no voxel size can be derived");
   const std::size_t wanted = std::min(num_voxels, points.size() / 2);
   const auto ratio = [&](std::size_t count) { return static_cast<double>(count) / static_cast<double>(wanted); };
-  // Voxels of a 2^n-th of the diagonal: at most 2^n + 1 of them an axis, so the first sizes cannot be enough.
-  int least = 0;
-  for (double most = 2; most * most * most < static_cast<double>(wanted); most = 2 * most - 1) ++least;
 
-  // Such voxels nest: one sort counts them at all these edges.
+  // Voxels of a 2^n-th of the diagonal nest: one sort counts them at all these edges.
   const std::vector<std::size_t> counts =
       VoxelOctaves(points, (low + high) / 2, std::ldexp(diagonal, -kSortedHalvings)).counts();
   const auto count_at = [&](int halvings) {
-    const std::size_t doublings = kSortedHalvings - halvings;
-    return halvings <= kSortedHalvings && doublings < counts.size()
-               ? counts[doublings]
-               : count_voxels(points, std::ldexp(diagonal, -halvings), wanted);
+    return halvings <= kSortedHalvings ? counts[kSortedHalvings - halvings]
+                                       : count_voxels(points, std::ldexp(diagonal, -halvings), wanted);
   };
-  int enough = least;
-  while (enough < kMaxHalvings && count_at(enough) < wanted) ++enough;
+  int enough = 0;
+  std::size_t count = count_at(0), count_below = 0;
+  while (enough < kMaxHalvings && count < wanted) {
+    count_below = count;
+    count = count_at(++enough);
+  }
   if (enough == 0) return diagonal;
   const double coarse_m = std::ldexp(diagonal, 1 - enough);
   int guess = kSteps / 2;
-  if (const std::size_t count_below = enough > least ? count_at(enough - 1) : 0; count_below > 0) {
-    const double octave = std::log2(ratio(count_at(enough)) / ratio(count_below));
+  if (count_below > 0) {
+    const double octave = std::log2(ratio(count) / ratio(count_below));
     guess = static_cast<int>(std::ceil(-kSteps * std::log2(ratio(count_below)) / octave));
   }
   const int step = first_enough(0, kSteps, guess,
