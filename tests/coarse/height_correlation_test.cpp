@@ -55,6 +55,8 @@ void expect_found(const SyntheticScene& scene) {
     EXPECT_EQ(best.method, CoarseMethod::kHeightMap);
     EXPECT_LT(rotation_angle_rad(truth.linear().transpose() * best.T_target_source.linear()), kTolerance_rad);
     EXPECT_LT(pose_rmse_m(truth, best.T_target_source, points), kTolerance_m);
+    EXPECT_LT(pose_rmse_m(truth, best.T_target_source, points), best.accuracy_m);
+    EXPECT_LT(best.accuracy_m, kTolerance_m) << "which tells something";
     EXPECT_GT(best.margin, 1.1);
     for (std::size_t i = 1; i < found[k].size(); ++i) {
       EXPECT_LE(found[k][i].score, found[k][i - 1].score);
@@ -186,6 +188,7 @@ TEST(HeightCorrelation, ScalesWithTheInput) {
   const auto expected = poses_of(pointers(scene.scans), {{0, 1}}, {}, 1)[0].front();
   const auto actual = poses_of(pointers(large), {{0, 1}}, {}, 1)[0].front();
   EXPECT_EQ(actual.score, expected.score) << "not the same bits";
+  EXPECT_NEAR(actual.accuracy_m, kFactor * expected.accuracy_m, 1e-9 * kFactor);
   EXPECT_LT(pose_rmse_m(scaled_pose(expected.T_target_source, kFactor), actual.T_target_source, large[1].points),
             1e-9 * kFactor);
 }

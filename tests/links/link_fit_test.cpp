@@ -69,6 +69,38 @@ TEST_F(LinkFitTest, WhatIsMeasuredIsMeasuredAtTheFittedPose) {
   EXPECT_GT(at_fit.evidence.consensus(), 2 * before.evidence.consensus());
 }
 
+// From metres away matches of the widest distance lead elsewhere as often as to the truth.
+TEST_F(LinkFitTest, AFitThatEndsFarOffIsTriedAgainNearItsCandidateAndTheBetterOneKept) {
+  int num_better = 0;
+  for (int k = 0; k < 12; ++k) {
+    PoseCandidate start =
+        candidate(testing::perturbed(s_.scene.T_target_source(0, 1), s_.scene.scans[1].points, 0.3, 2, rng_), 30);
+    const auto wide = fit(start);
+    start.accuracy_m = 0.02;
+    const auto either = fit(start);
+    if (wide) ASSERT_TRUE(either);
+    if (!either) continue;
+    const double before = wide ? wide->measurements.evidence.consensus() : 0,
+                 after = either->measurements.evidence.consensus();
+    EXPECT_GE(after, before) << k;
+    if (wide) {
+      EXPECT_LE(either->measurements.free_space.violation_share(), wide->measurements.free_space.violation_share());
+    }
+    if (after > before) ++num_better;
+  }
+  EXPECT_GT(num_better, 0);
+}
+
+TEST_F(LinkFitTest, AFitThatEndsWhereItsCandidateMayBeIsKept) {
+  PoseCandidate start = near_truth(30);
+  const auto wide = fit(start);
+  ASSERT_TRUE(wide);
+  start.accuracy_m = 1.1 * testing::pose_rmse_m(start.T_target_source, wide->T_a_b, s_.scene.scans[1].points);
+  const auto again = fit(start);
+  ASSERT_TRUE(again);
+  EXPECT_TRUE(testing::is_pose_near(wide->T_a_b, again->T_a_b, 0, 0));
+}
+
 TEST_F(LinkFitTest, WithoutOverlapThereIsNoFit) {
   EXPECT_FALSE(fit(candidate(Isometry3d(Eigen::Translation3d(500, 0, 0)), 30)));
 }

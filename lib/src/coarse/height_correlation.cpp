@@ -230,6 +230,7 @@ std::vector<PoseCandidate> HeightSearch::candidates(const ScanPair& pair, const 
     candidate.T_target_source = lift_pose(target.fine_maps[peak.target_map], source.fine_maps[peak.source_map],
                                           source.fine_cells[peak.source_map], peak);
     candidate.score = peak.score;
+    candidate.accuracy_m = cell_m / kFineScale;
     candidate.margin = rival ? peak.score / rival->score : peak.score;
     out.push_back(candidate);
   }

@@ -6,40 +6,20 @@
 #include <boost/sort/spreadsort/integer_sort.hpp>
 #include <cstdint>
 
+#include "tcm_icp/core/morton_code.hpp"
+
 namespace tcm_icp {
 namespace {
 
-constexpr int kBitsPerAxis = 21;  // three fill 63 bits
-constexpr std::int64_t kHalfRange = std::int64_t{1} << (kBitsPerAxis - 1);
-
-// One bit of three, from the lowest on.
-constexpr VoxelCode kAxis = 0x1249249249249249ULL;
-
-// Each bit goes to three times its place.
-VoxelCode spread(std::uint64_t cell) {
-  cell = (cell | cell << 32) & 0x001f00000000ffffULL;
-  cell = (cell | cell << 16) & 0x001f0000ff0000ffULL;
-  cell = (cell | cell << 8) & 0x100f00f00f00f00fULL;
-  cell = (cell | cell << 4) & 0x10c30c30c30c30c3ULL;
-  return (cell | cell << 2) & kAxis;
-}
-
-std::uint64_t gathered(VoxelCode code) {
-  code &= kAxis;
-  code = (code | code >> 2) & 0x10c30c30c30c30c3ULL;
-  code = (code | code >> 4) & 0x100f00f00f00f00fULL;
-  code = (code | code >> 8) & 0x001f0000ff0000ffULL;
-  code = (code | code >> 16) & 0x001f00000000ffffULL;
-  return (code | code >> 32) & 0x1fffffULL;
-}
+constexpr std::int64_t kHalfRange = std::int64_t{1} << (kMortonBits - 1);
 
 VoxelCode code_along_axis(std::int64_t cell, std::int64_t first) {
-  return spread(static_cast<std::uint64_t>(std::clamp<std::int64_t>(cell - first, 0, 2 * kHalfRange - 1)));
+  return morton_spread(static_cast<std::uint64_t>(std::clamp<std::int64_t>(cell - first, 0, 2 * kHalfRange - 1)));
 }
 
 // A multiple of 2^19, so that voxels of that many edges are those of the keys, too.
 std::int64_t first_cell(std::int64_t middle) {
-  constexpr int kAligned = kBitsPerAxis - 2;
+  constexpr int kAligned = kMortonBits - 2;
   return (middle - kHalfRange) >> kAligned << kAligned;
 }
 
@@ -67,10 +47,10 @@ VoxelOctaves::VoxelOctaves(const Points& points, const Eigen::Vector3d& middle, 
 }
 
 std::vector<std::size_t> VoxelOctaves::counts() const {
-  std::vector<std::size_t> out(kBitsPerAxis - 1);
+  std::vector<std::size_t> out(kMortonBits - 1);
   if (codes_.empty()) return out;
   // Neighbours along the curve part at the edge where the highest bit differs.
-  std::array<std::size_t, kBitsPerAxis> parted{};
+  std::array<std::size_t, kMortonBits> parted{};
   for (std::size_t i = 1; i < codes_.size(); ++i) ++parted[(std::bit_width(codes_[i] ^ codes_[i - 1]) - 1) / 3];
   std::size_t count = codes_.size();
   for (std::size_t octave = 0; octave < out.size(); count -= parted[octave++]) out[octave] = count;
@@ -79,15 +59,15 @@ std::vector<std::size_t> VoxelOctaves::counts() const {
 
 VoxelKey VoxelOctaves::key(VoxelCode code, int octave) const {
   const auto along = [&](int axis, std::int64_t first) {
-    return static_cast<std::int64_t>(gathered(code >> axis)) + (first >> octave);
+    return static_cast<std::int64_t>(morton_gathered(code >> axis)) + (first >> octave);
   };
   return {along(0, first_.x), along(1, first_.y), along(2, first_.z)};
 }
 
 VoxelCode touching_voxel(VoxelCode code, int n) {
-  code = stepped(code, kAxis, n % 3 - 1);
-  code = stepped(code, kAxis << 1, n / 3 % 3 - 1);
-  return stepped(code, kAxis << 2, n / 9 - 1);
+  code = stepped(code, kMortonAxis, n % 3 - 1);
+  code = stepped(code, kMortonAxis << 1, n / 3 % 3 - 1);
+  return stepped(code, kMortonAxis << 2, n / 9 - 1);
 }
 
 }  // namespace tcm_icp

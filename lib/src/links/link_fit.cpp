@@ -1,12 +1,15 @@
 #include "links/link_fit.hpp"
 
 #include <algorithm>
+#include <limits>
+#include <utility>
 
 #include "core/acceptance.hpp"
 #include "links/measure_link.hpp"
 #include "scans/matched_sides.hpp"
 #include "scans/scan_sight.hpp"
 #include "tcm_icp/core/even_sample.hpp"
+#include "tcm_icp/core/rigid_transform.hpp"
 #include "tcm_icp/registration/alignment_objective.hpp"
 #include "tcm_icp/registration/lp_registration.hpp"
 
@@ -19,11 +22,44 @@ constexpr std::size_t kFitPoints = 1500, kScreenPoints = 250;
 constexpr int kMaxLpSolves = 20;  // a fit of a right pose takes five to eight
 // Maximum correspondence distances, in coarse voxels.
 constexpr double kFirstDistance = 8, kLastDistance = 2, kDistanceShrink = 0.6;
+// Matches from far away draw a pose to where the scans overlap more. A fit that ends farther off than its candidate may
+// be is tried again by matches within twice that.
+constexpr double kAccuracies = 2;
 
 bool hopeless(const PreparedScan& target, const PreparedScan& source, const PoseCandidate& candidate) {
   const FreeSpaceEvidence evidence = violations(target, source, candidate.T_target_source);
   const double most = candidate.method == CoarseMethod::kSlide ? kHopelessOfSlide : kHopelessViolations;
   return evidence.tells() && evidence.violation_share() > most;
+}
+
+std::optional<LinkHypothesis> fit_from(double first_distance_m, const PreparedScan& target, const PreparedScan& source,
+                                       const PoseCandidate& candidate, const LinkSearchOptions& options) {
+  const double voxel_m = target.pyramid.level(0).voxel_size_m;
+  LpRegistrationOptions lp;
+  lp.formulation = options.formulation;
+  lp.lp = options.lp;
+  lp.initial_gate_m = first_distance_m;
+  lp.final_gate_m = kLastDistance * voxel_m;
+  lp.gate_shrink = kDistanceShrink;
+  lp.max_iterations = kMaxLpSolves;
+  const RegistrationResult fit =
+      register_lp(even_sample(source.coarse_sample, kFitPoints), target.pyramid, candidate.T_target_source, lp,
+                  [&](const Eigen::Isometry3d& T_target_source, Correspondences& matches) {
+                    drop_opposed(target.sight, source.sight, T_target_source, matches);
+                  });
+  if (!fit.usable()) return std::nullopt;
+  return LinkHypothesis{fit.T_target_source, candidate, measure_link(target, source, fit.T_target_source)};
+}
+
+double moved_m(const std::optional<LinkHypothesis>& fit, const PoseCandidate& candidate, const PreparedScan& source) {
+  if (!fit) return std::numeric_limits<double>::infinity();
+  return rms_displacement(candidate.T_target_source.inverse() * fit->T_a_b, source.moments);
+}
+
+// Along a corridor points agree most where both scans overlap most, which is where walls are seen through.
+bool is_better(const LinkMeasurements& a, const LinkMeasurements& b) {
+  return a.evidence.consensus() > b.evidence.consensus() &&
+         a.free_space.violation_share() <= b.free_space.violation_share();
 }
 
 // Along a corridor points lie nearest where both scans overlap most. Where both were taken free space tells far better
@@ -72,20 +108,15 @@ std::optional<LinkHypothesis> fit_candidate(const PreparedScan& target, const Pr
                                             const PoseCandidate& candidate, const LinkSearchOptions& options) {
   if (hopeless(target, source, candidate)) return std::nullopt;
   const double voxel_m = target.pyramid.level(0).voxel_size_m;
-  LpRegistrationOptions lp;
-  lp.formulation = options.formulation;
-  lp.lp = options.lp;
-  lp.initial_gate_m = (candidate.there ? kLastDistance : kFirstDistance) * voxel_m;
-  lp.final_gate_m = kLastDistance * voxel_m;
-  lp.gate_shrink = kDistanceShrink;
-  lp.max_iterations = kMaxLpSolves;
-  const RegistrationResult fit =
-      register_lp(even_sample(source.coarse_sample, kFitPoints), target.pyramid, candidate.T_target_source, lp,
-                  [&](const Eigen::Isometry3d& T_target_source, Correspondences& matches) {
-                    drop_opposed(target.sight, source.sight, T_target_source, matches);
-                  });
-  if (!fit.usable()) return std::nullopt;
-  return LinkHypothesis{fit.T_target_source, candidate, measure_link(target, source, fit.T_target_source)};
+  const double least_m = kLastDistance * voxel_m, most_m = kFirstDistance * voxel_m;
+  auto fit = fit_from(candidate.there ? least_m : most_m, target, source, candidate, options);
+  const double near_m = std::max(kAccuracies * candidate.accuracy_m, least_m);
+  const double off_m = std::max(candidate.accuracy_m, voxel_m);  // and what the fit itself may be off
+  if (candidate.accuracy_m > 0 && near_m < most_m && !(moved_m(fit, candidate, source) <= off_m)) {
+    auto near = fit_from(near_m, target, source, candidate, options);
+    if (near && (!fit || is_better(near->measurements, fit->measurements))) fit = std::move(near);
+  }
+  return fit;
 }
 
 }  // namespace tcm_icp

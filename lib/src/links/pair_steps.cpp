@@ -14,8 +14,8 @@ namespace tcm_icp {
 
 template <typename Record, MaybeConst<PoseCandidate> T>
 void transfer(Record& record, T& value) {
-  auto& [T_target_source, method, score, margin, there] = value;
-  record(T_target_source, method, score, margin, there);
+  auto& [T_target_source, method, score, margin, there, accuracy_m] = value;
+  record(T_target_source, method, score, margin, there, accuracy_m);
 }
 
 template <typename Record, MaybeConst<AlignmentEvidence> T>
@@ -163,8 +163,9 @@ std::optional<LinkHypothesis> fit_candidate_once(const StepStore* store, const P
                                                  const LinkSearchOptions& options) {
   if (store == nullptr) return fit_candidate(target, source, candidate, options);
   const auto& [formulation, lp, level, features, slides] = options;
-  const StepKey key = step_key("fits", target.digest, source.digest, candidate.T_target_source,
-                               candidate.method == CoarseMethod::kSlide, candidate.there, formulation, lp);
+  const StepKey key =
+      step_key("fits", target.digest, source.digest, candidate.T_target_source,
+               candidate.method == CoarseMethod::kSlide, candidate.there, candidate.accuracy_m, formulation, lp);
   const auto fit = do_once<std::optional<Fit>>(*store, key, [&]() -> std::optional<Fit> {
     const auto found = fit_candidate(target, source, candidate, options);
     if (!found) return std::nullopt;

@@ -5,19 +5,15 @@
 #include <cmath>
 #include <limits>
 
+#include "tcm_icp/core/morton_code.hpp"
+
 namespace tcm_icp {
 namespace {
 
 // What is clearly nearer: beyond noise and the slope of a surface across a bin.
 constexpr float kGapOfScan = 0.005F, kGapOfRange = 0.02F;
 
-// Ten bits with two zeros after each.
-std::uint32_t spread_bits(std::uint32_t v) {
-  v = (v | v << 16U) & 0x030000FFU;
-  v = (v | v << 8U) & 0x0300F00FU;
-  v = (v | v << 4U) & 0x030C30C3U;
-  return (v | v << 2U) & 0x09249249U;
-}
+constexpr float kCells = 1024;  // along an axis, so that a code has 30 bits
 
 // Indices along Morton's curve, in the box of the points.
 std::vector<std::uint32_t> z_order(const UnitCloud& cloud) {
@@ -27,9 +23,10 @@ std::vector<std::uint32_t> z_order(const UnitCloud& cloud) {
   for (const auto* values : {&cloud.x, &cloud.y, &cloud.z}) {
     if (n == 0) break;
     const auto [low, high] = std::minmax_element(values->begin(), values->end());
-    const float scale = *high > *low ? 1023 / (*high - *low) : 0;
+    const float scale = *high > *low ? (kCells - 1) / (*high - *low) : 0;
     for (std::size_t i = 0; i < n; ++i) {
-      code[i] |= spread_bits(static_cast<std::uint32_t>(((*values)[i] - *low) * scale)) << axis;
+      const auto cell = static_cast<std::uint32_t>(((*values)[i] - *low) * scale);
+      code[i] |= static_cast<std::uint32_t>(morton_spread(cell)) << axis;
     }
     ++axis;
   }

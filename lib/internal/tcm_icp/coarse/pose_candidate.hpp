@@ -21,6 +21,7 @@ struct PoseCandidate {
   /// Asked there alone: a fit from about there has led to another pose that is one with it, a wall's other face
   /// perhaps.
   bool there = false;
+  double accuracy_m = 0;  ///< what points are off at most where it is right, by how it was searched; 0: not known
 };
 
 }  // namespace tcm_icp
