@@ -22,7 +22,9 @@ std::vector<PoseCandidate> in_order_of_promise(const PreparedScan& target, const
                                                const std::vector<PoseCandidate>& candidates);
 
 /// A candidate fitted by linear programs over a light sample, and what is measured there; T_a_b is T_target_source.
-/// Nothing where far too much is seen through walls before the fit, or the fit fails. Log-odds are not set yet.
+/// Where that ends farther off than the candidate may be (accuracy_m), the better of it and a second, by matches from
+/// near alone. Nothing where far too much is seen through walls before the fit, or the fit fails. Log-odds are not set
+/// yet.
 std::optional<LinkHypothesis> fit_candidate(const PreparedScan& target, const PreparedScan& source,
                                             const PoseCandidate& candidate, const LinkSearchOptions& options);
 
