@@ -1,7 +1,6 @@
 #include "links/link_fit.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 #include "core/acceptance.hpp"
@@ -49,11 +48,6 @@ std::optional<LinkHypothesis> fit_from(double first_distance_m, const PreparedSc
                   });
   if (!fit.usable()) return std::nullopt;
   return LinkHypothesis{fit.T_target_source, candidate, measure_link(target, source, fit.T_target_source)};
-}
-
-double moved_m(const std::optional<LinkHypothesis>& fit, const PoseCandidate& candidate, const PreparedScan& source) {
-  if (!fit) return std::numeric_limits<double>::infinity();
-  return rms_displacement(candidate.T_target_source.inverse() * fit->T_a_b, source.moments);
 }
 
 // Along a corridor points agree most where both scans overlap most, which is where walls are seen through.
@@ -112,7 +106,9 @@ std::optional<LinkHypothesis> fit_candidate(const PreparedScan& target, const Pr
   auto fit = fit_from(candidate.there ? least_m : most_m, target, source, candidate, options);
   const double near_m = std::max(kAccuracies * candidate.accuracy_m, least_m);
   const double off_m = std::max(candidate.accuracy_m, voxel_m);  // and what the fit itself may be off
-  if (candidate.accuracy_m > 0 && near_m < most_m && !(moved_m(fit, candidate, source) <= off_m)) {
+  const bool is_off =
+      !fit || rms_displacement(candidate.T_target_source.inverse() * fit->T_a_b, source.moments) > off_m;
+  if (candidate.accuracy_m > 0 && near_m < most_m && is_off) {
     auto near = fit_from(near_m, target, source, candidate, options);
     if (near && (!fit || is_better(near->measurements, fit->measurements))) fit = std::move(near);
   }
