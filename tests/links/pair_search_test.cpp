@@ -8,6 +8,7 @@
 #include <string>
 
 #include "io/temp_files.hpp"
+#include "links/empty_hypotheses.hpp"
 #include "pipeline/prepared_scene.hpp"
 #include "tcm_icp/coarse/vertical.hpp"
 #include "tcm_icp/core/error.hpp"
@@ -16,6 +17,7 @@ namespace tcm_icp {
 namespace {
 
 using Eigen::Isometry3d;
+using testing::no_hypotheses;
 using testing::PreparedScene;
 using Pair = std::pair<std::size_t, std::size_t>;
 
@@ -29,12 +31,6 @@ constexpr std::size_t kPoints = 15000;
 PreparedScene yard(std::size_t num_scans, std::uint64_t seed) {
   Rng rng = make_stream(seed, "pair_search_test");
   return testing::prepared_scene({.num_scans = num_scans, .points_per_scan = kPoints, .noise_m = 0.01}, rng);
-}
-
-HypothesisSet no_hypotheses(const PreparedScene& s) {
-  std::vector<PointMoments> moments;
-  for (const auto& scan : s.scans) moments.push_back(scan.moments);
-  return {s.resolutions.coarse_m, 0.01, std::move(moments)};
 }
 
 double error_m(const PreparedScene& s, const Pair& pair, const LinkHypothesis& h) {

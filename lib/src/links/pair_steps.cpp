@@ -122,9 +122,9 @@ void save_candidates(const StepStore& store, const StepKey& key, const std::vect
   save_step(store, key, candidates, seconds);
 }
 
-std::vector<PoseCandidate> candidates_once(const StepStore& store, const StepKey& key,
+std::vector<PoseCandidate> candidates_once(const StepStore* store, const std::function<StepKey()>& key,
                                            const std::function<std::vector<PoseCandidate>()>& search) {
-  return do_once<std::vector<PoseCandidate>>(store, key, search);
+  return store != nullptr ? do_once<std::vector<PoseCandidate>>(*store, key(), search) : search();
 }
 
 const CorrelationGrid& grid_of_pair(const CorrelationGrid& a, const CorrelationGrid& b) {

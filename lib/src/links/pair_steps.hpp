@@ -30,7 +30,8 @@ std::vector<std::string> digests_of(const std::vector<PreparedScan>& scans);
 std::optional<std::vector<PoseCandidate>> find_candidates(const StepStore& store, const StepKey& key);
 void save_candidates(const StepStore& store, const StepKey& key, const std::vector<PoseCandidate>& candidates,
                      double seconds);
-std::vector<PoseCandidate> candidates_once(const StepStore& store, const StepKey& key,
+/// A search that is kept; without a store it is just that, and needs no key.
+std::vector<PoseCandidate> candidates_once(const StepStore* store, const std::function<StepKey()>& key,
                                            const std::function<std::vector<PoseCandidate>()>& search);
 
 /// For each scan of a set the grid that it is compared on with those that came no later: choose_correlation_grid() of

@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <string_view>
+#include <vector>
 
 namespace tcm_icp {
 
@@ -23,5 +24,8 @@ struct PoseCandidate {
   bool there = false;
   double accuracy_m = 0;  ///< what points are off at most where it is right, by how it was searched; 0: not known
 };
+
+/// That of the first, the best of a search; 0 of none.
+inline double best_score(const std::vector<PoseCandidate>& found) { return found.empty() ? 0 : found.front().score; }
 
 }  // namespace tcm_icp

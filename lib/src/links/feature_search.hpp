@@ -1,0 +1,52 @@
+#pragma once
+// Poses of pairs by local features: scans are described once, when they are first asked for.
+
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "links/link_fit.hpp"
+#include "links/pair_steps.hpp"
+#include "scans/prepared_scan.hpp"
+#include "tcm_icp/coarse/feature_alignment.hpp"
+#include "tcm_icp/coarse/scan_words.hpp"
+#include "tcm_icp/core/run_context.hpp"
+#include "tcm_icp/steps/step_store.hpp"
+
+namespace tcm_icp {
+
+class FeatureSearch {
+ public:
+  /// Keeps references: all must outlive the search.
+  /// @param store  where searches are kept; nullptr: nowhere
+  FeatureSearch(const std::vector<PreparedScan>& scans, const LinkSearchOptions& options, const RunContext& context,
+                const StepStore* store);
+
+  /// Of each pair.
+  std::vector<std::vector<PoseCandidate>> candidates(const ScanPairs& pairs);
+
+  /// How likely pairs overlap: scores of the best candidates by the first level alone, which tells that, too.
+  std::vector<double> scores(const ScanPairs& pairs);
+
+  /// How much each scan looks like this one (ScanWords::likeness).
+  std::vector<double> likeness(std::size_t scan);
+
+ private:
+  using Alignments = std::map<ScanPairs::value_type, std::vector<PoseCandidate>>;
+  using MakeKey = StepKey (*)(const PreparedScan&, const PreparedScan&, const LinkSearchOptions&);
+
+  void describe();
+  void align(const ScanPairs& pairs, const FeatureAlignmentOptions& by, MakeKey key, Alignments& known);
+  std::vector<PoseCandidate> aligned(std::size_t a, std::size_t b, const FeatureAlignmentOptions& by) const;
+
+  const std::vector<PreparedScan>& scans_;
+  const LinkSearchOptions& options_;
+  const RunContext& context_;
+  const StepStore* store_;
+  FeatureAlignmentOptions by_all_levels_, by_first_level_;
+  std::vector<DescribedScan> described_;
+  std::optional<ScanWords> words_;
+  Alignments aligned_, ranked_;  // by all levels, by the first
+};
+
+}  // namespace tcm_icp

@@ -1,0 +1,60 @@
+#include "links/pair_fits.hpp"
+
+#include <gtest/gtest.h>
+
+#include "links/empty_hypotheses.hpp"
+#include "pipeline/prepared_scene.hpp"
+
+namespace tcm_icp {
+namespace {
+
+using testing::no_hypotheses;
+using testing::PreparedScene;
+
+PreparedScene two_scans() {
+  Rng rng = make_stream(8, "pair_fits_test");
+  return testing::prepared_scene({.num_scans = 2, .points_per_scan = 15000, .noise_m = 0.01}, rng);
+}
+
+PoseCandidate about(const PreparedScene& s, double metres, double score) {
+  PoseCandidate out;
+  out.T_target_source = s.scene.T_target_source(0, 1);
+  out.T_target_source.pretranslate(Eigen::Vector3d(metres, 0, 0));
+  out.score = score;
+  return out;
+}
+
+TEST(PairFits, FitFromTheMostPromisingCandidateAndEndWhereItIsClear) {
+  const PreparedScene s = two_scans();
+  const LinkSearchOptions options;
+  const RunContext context;
+  PairFits fits(s.scans, options, context, nullptr);
+  HypothesisSet set = no_hypotheses(s);
+  EXPECT_TRUE(fits.poses_of(0, 1).empty());
+  const double voxel_m = s.resolutions.coarse_m;
+  ASSERT_GT(testing::pose_rmse_m(s.scene.T_target_source(0, 1), about(s, voxel_m, 2).T_target_source,
+                                 s.scene.scans[1].points),
+            0.25 * voxel_m)
+      << "the start is no solution";
+  fits.fit({{0, 1}}, {{about(s, voxel_m, 2), about(s, 30 * voxel_m, 1)}}, true, set);
+  ASSERT_EQ(fits.poses_of(0, 1).size(), 1U) << "a clear hypothesis ends the fits of a pair";
+  EXPECT_LE(testing::pose_rmse_m(s.scene.T_target_source(0, 1), fits.poses_of(0, 1)[0], s.scene.scans[1].points),
+            0.25 * voxel_m);
+  ASSERT_EQ(set.pairs().at({0, 1}).size(), 1U);
+  EXPECT_TRUE(set.pairs().at({0, 1}).front().is_later);
+}
+
+TEST(PairFits, KnowAPairWithoutCandidatesAsCompared) {
+  const PreparedScene s = two_scans();
+  const LinkSearchOptions options;
+  const RunContext context;
+  PairFits fits(s.scans, options, context, nullptr);
+  HypothesisSet set = no_hypotheses(s);
+  fits.fit({{0, 1}}, {{}}, false, set);
+  EXPECT_TRUE(fits.poses_of(0, 1).empty());
+  ASSERT_TRUE(set.pairs().contains({0, 1}));
+  EXPECT_TRUE(set.pairs().at({0, 1}).empty());
+}
+
+}  // namespace
+}  // namespace tcm_icp
