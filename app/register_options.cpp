@@ -16,6 +16,7 @@
 #include "parse_arguments.hpp"
 #include "register_choices.hpp"
 #include "run_setup.hpp"
+#include "suggestion.hpp"
 #include "tcm_icp/core/error.hpp"
 
 namespace tcm_icp::app {
