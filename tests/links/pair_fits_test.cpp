@@ -24,12 +24,16 @@ PoseCandidate about(const PreparedScene& s, double metres, double score) {
   return out;
 }
 
-TEST(PairFits, FitFromTheMostPromisingCandidateAndEndWhereItIsClear) {
+class PairFitsOfTwoScans : public ::testing::Test {
+ protected:
   const PreparedScene s = two_scans();
   const LinkSearchOptions options;
   const RunContext context;
-  PairFits fits(s.scans, options, context, nullptr);
+  PairFits fits{s.scans, options, context, nullptr};
   HypothesisSet set = no_hypotheses(s);
+};
+
+TEST_F(PairFitsOfTwoScans, FitFromTheMostPromisingCandidateAndEndWhereItIsClear) {
   EXPECT_TRUE(fits.poses_of(0, 1).empty());
   const double voxel_m = s.resolutions.coarse_m;
   ASSERT_GT(testing::pose_rmse_m(s.scene.T_target_source(0, 1), about(s, voxel_m, 2).T_target_source,
@@ -44,12 +48,7 @@ TEST(PairFits, FitFromTheMostPromisingCandidateAndEndWhereItIsClear) {
   EXPECT_TRUE(set.pairs().at({0, 1}).front().is_later);
 }
 
-TEST(PairFits, KnowAPairWithoutCandidatesAsCompared) {
-  const PreparedScene s = two_scans();
-  const LinkSearchOptions options;
-  const RunContext context;
-  PairFits fits(s.scans, options, context, nullptr);
-  HypothesisSet set = no_hypotheses(s);
+TEST_F(PairFitsOfTwoScans, KnowAPairWithoutCandidatesAsCompared) {
   fits.fit({{0, 1}}, {{}}, false, set);
   EXPECT_TRUE(fits.poses_of(0, 1).empty());
   ASSERT_TRUE(set.pairs().contains({0, 1}));
