@@ -60,8 +60,20 @@ std::vector<HeightMapGrids> HeightMapSearch::grids_of(const ScanPairs& pairs) {
   return out;
 }
 
-std::vector<std::vector<PoseCandidate>> HeightMapSearch::candidates(const ScanPairs& pairs,
-                                                                    const std::vector<HeightMapGrids>& grids) {
+std::vector<std::vector<PoseCandidate>> HeightMapSearch::candidates(const ScanPairs& pairs) {
+  ScanPairs open;
+  for (const auto& pair : pairs) {
+    if (!found_.contains(pair)) open.push_back(pair);
+  }
+  auto found = candidates_on(grids_of(open), open);
+  for (std::size_t k = 0; k < open.size(); ++k) found_.emplace(open[k], std::move(found[k]));
+  std::vector<std::vector<PoseCandidate>> out;
+  for (const auto& pair : pairs) out.push_back(found_.at(pair));
+  return out;
+}
+
+std::vector<std::vector<PoseCandidate>> HeightMapSearch::candidates_on(const std::vector<HeightMapGrids>& grids,
+                                                                       const ScanPairs& pairs) {
   std::vector<std::vector<PoseCandidate>> out(pairs.size());
   const auto key = [&](std::size_t k) {
     return height_map_key(scans_[pairs[k].first], scans_[pairs[k].second], from_above_.vertical(),

@@ -33,9 +33,14 @@ class HeightMapSearch {
   /// Of each pair. Cost: that of finding what is up in every scan, once.
   std::vector<HeightMapGrids> grids_of(const ScanPairs& pairs);
 
-  /// Candidates of each pair: those that are kept; of the others a block at a time is searched and kept.
-  /// @param grids  of each pair, of this set or a larger one
-  std::vector<std::vector<PoseCandidate>> candidates(const ScanPairs& pairs, const std::vector<HeightMapGrids>& grids);
+  /// Of each pair, on the grids of this set.
+  std::vector<std::vector<PoseCandidate>> candidates(const ScanPairs& pairs);
+
+  /// The same on the grids of a larger set: those that are kept there; of the others a block at a time is searched and
+  /// kept.
+  /// @param grids  of each pair
+  std::vector<std::vector<PoseCandidate>> candidates_on(const std::vector<HeightMapGrids>& grids,
+                                                        const ScanPairs& pairs);
 
   /// How likely pairs overlap, by coarse maps (PairScreening::score).
   std::vector<double> scores(const ScanPairs& pairs);
@@ -48,8 +53,9 @@ class HeightMapSearch {
   ScansFromAbove from_above_;
   const RunContext& context_;
   const KeptSearches& kept_;
-  std::vector<HeightMapGrids> of_scans_;                     // once they are asked for
-  std::map<ScanPairs::value_type, PairScreening> screened_;  // the same
+  std::vector<HeightMapGrids> of_scans_;                                // once they are asked for
+  std::map<ScanPairs::value_type, PairScreening> screened_;             // the same
+  std::map<ScanPairs::value_type, std::vector<PoseCandidate>> found_;  // the same, on the set's own grids
 };
 
 }  // namespace tcm_icp

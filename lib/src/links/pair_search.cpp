@@ -83,7 +83,6 @@ struct PairSearch::Impl {
   OverlapsAtPoses overlaps;
   std::map<ScanPairs::value_type, Tried> tried;                             // pairs that were
   std::vector<std::size_t> reach;                                           // how many partners were asked for, of each
-  std::map<ScanPairs::value_type, std::vector<PoseCandidate>> from_above;   // by height maps
   std::map<ScanPairs::value_type, std::vector<Eigen::Isometry3d>> implied;  // that were tried
 
   std::vector<std::size_t> outside_group(std::size_t scan, const std::vector<std::size_t>& groups) const {
@@ -131,7 +130,7 @@ struct PairSearch::Impl {
       }
     }
     if (all.empty()) return {};
-    by_height_maps(all);
+    height_maps.candidates(all);  // together they share transforms
     std::set<ScanPairs::value_type> chosen;
     for (const std::size_t i : some) {
       std::vector<std::size_t> others;
@@ -139,7 +138,7 @@ struct PairSearch::Impl {
                    [&](std::size_t j) { return groups[j] != groups[i]; });
       const ScanPairs pairs = pairs_with(i, others);
       std::vector<double> by_maps;
-      for (const auto& pair : pairs) by_maps.push_back(best_score(from_above.at(pair)));
+      for (const auto& found : height_maps.candidates(pairs)) by_maps.push_back(best_score(found));
       for (const auto& score : {by_maps, features.scores(pairs)}) {
         auto best = others;
         keep_best(score, kFirstPartners, best);
@@ -201,18 +200,6 @@ struct PairSearch::Impl {
     return more;
   }
 
-  std::vector<std::vector<PoseCandidate>> by_height_maps(const ScanPairs& pairs) {
-    ScanPairs open;
-    for (const auto& pair : pairs) {
-      if (!from_above.contains(pair)) open.push_back(pair);
-    }
-    auto found = height_maps.candidates(open, height_maps.grids_of(open));
-    for (std::size_t k = 0; k < open.size(); ++k) from_above.emplace(open[k], std::move(found[k]));
-    std::vector<std::vector<PoseCandidate>> out;
-    for (const auto& pair : pairs) out.push_back(from_above.at(pair));
-    return out;
-  }
-
   /// Pairs that were tried by `before` by the method after it; false where that is left out.
   bool try_next(Tried before, const ScanPairs& pairs, bool is_later, HypothesisSet& set) {
     const bool is_used = uses(next(before));
@@ -226,7 +213,7 @@ struct PairSearch::Impl {
     switch (before) {
       case Tried::kNothing:
         context.report("comparing height maps", 0, pairs.size());
-        return by_height_maps(pairs);
+        return height_maps.candidates(pairs);
       case Tried::kHeightMaps:
         context.report("comparing features", 0, pairs.size());
         return features.candidates(pairs);
@@ -291,7 +278,7 @@ FirstPairs PairSearch::first_pairs() {
 }
 
 void PairSearch::match(const FirstPairs& first) {
-  const auto candidates = impl_->height_maps.candidates(first.pairs, first.grids);
+  const auto candidates = impl_->height_maps.candidates_on(first.grids, first.pairs);
   impl_->context.report("fitting", 0, first.pairs.size());
   impl_->fits.fit_first(first.pairs, candidates);
 }
