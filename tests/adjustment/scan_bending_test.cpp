@@ -36,9 +36,38 @@ BentScene bent_scene(const testing::JointSceneOptions& options, double deviation
   return scene;
 }
 
-ScanBending bending_of(const BentScene& scene, bool swept = true) {
-  ScanBending bending(scene.places, std::vector<bool>(scene.places.size(), swept));
-  bending.estimate(scene.links, scene.frames, robust_noise_m(scene.links), 0.2, 1);
+constexpr double kMotion_m = 0.5;  // during a turn
+
+/// Of scans from a row of places, by a scanner that turns to the left about the vertical, from the back on, and moves
+/// along the row meanwhile.
+BentScene moving_scene(const testing::JointSceneOptions& options, double motion_m, Rng& rng) {
+  BentScene scene{testing::joint_scene(options, rng), {}};
+  for (std::size_t i = 0; i < options.num_scans; ++i) scene.places.push_back({2.0 + static_cast<double>(i), 10, 2});
+  const auto moved_m = [&](std::size_t scan, const Eigen::Vector3d& point) -> Eigen::Vector3d {
+    const Eigen::Vector3d ray = point - scene.places[scan];
+    return motion_m * std::atan2(ray.y(), ray.x()) / (2 * EIGEN_PI) * Eigen::Vector3d::UnitX();
+  };
+  for (auto& link : scene.links) {
+    for (auto& match : link.matches) {
+      // A scan that comes later sees what does not move farther back.
+      const Eigen::Vector3d offset_m = moved_m(link.target, match.target) - moved_m(link.source, match.source);
+      match.target -= match.normal.dot(offset_m) * match.normal;
+    }
+  }
+  return scene;
+}
+
+enum class Known { kNothing, kPlace, kSweptPlace };
+
+ScanBending bending_of(const BentScene& scene, Known known = Known::kSweptPlace) {
+  std::vector<ScanOrigin> origins;
+  for (const auto& place : scene.places) {
+    const double sign = origins.size() % 2 == 0 ? 1 : -1;  // an axis has none
+    origins.push_back({place, sign * Eigen::Vector3d::UnitZ(), known != Known::kNothing, known == Known::kSweptPlace});
+  }
+  ScanBending bending(origins);
+  bending.set_poses(std::vector<Eigen::Isometry3d>(origins.size(), Eigen::Isometry3d::Identity()));
+  bending.estimate(scene.links, scene.frames, {robust_noise_m(scene.links), 0.2}, 1);
   return bending;
 }
 
@@ -110,6 +139,7 @@ TEST(ScanBending, IsNotFoundWhereThereIsNone) {
     const ScanBending bending = bending_of(bent_scene({.num_scans = 6, .noise_m = 0.02, .step_m = 0}, 0, rng));
     found += bending.any() ? 1 : 0;
     EXPECT_LT(bending.offset_m(), 0.2 * 0.02);
+    EXPECT_LT(bending.motion_m(), 0.02);
   }
   EXPECT_LE(found, 2);
 }
@@ -118,8 +148,30 @@ TEST(ScanBending, IsAskedOfSweptScansAlone) {
   Rng rng = make_stream(1, "scan_bending_test");
   const BentScene scene = bent_scene({.num_scans = 6, .noise_m = 0.01}, kDeviation_m, rng);
   EXPECT_TRUE(bending_of(scene).any());
-  EXPECT_FALSE(bending_of(scene, false).any());
-  EXPECT_EQ(bending_of(scene, false).offset_m(), 0);
+  EXPECT_EQ(bending_of(scene, Known::kPlace).offset_m(), 0);
+  EXPECT_FALSE(bending_of(scene, Known::kNothing).any());
+}
+
+TEST(ScanBending, MotionDuringATurnIsFoundAndMovesPosesLess) {
+  double still_m = 0, moving_m = 0;
+  for (const std::uint64_t seed : {1u, 2u, 3u, 4u}) {
+    Rng rng = make_stream(seed, "scan_bending_test");
+    const BentScene scene =
+        moving_scene({.num_scans = 12, .matches_per_link = 400, .noise_m = 0.01, .step_m = 0}, kMotion_m, rng);
+    ScanBending bending = bending_of(scene, Known::kPlace);
+    EXPECT_LT(bending.motion_m(), 1.2 * kMotion_m);
+    EXPECT_GT(bending.motion_m(), 0.4 * kMotion_m) << "rather less than too much";
+    still_m += largest_error_m(scene, steps_m(scene, nullptr, 15));
+    moving_m += largest_error_m(scene, steps_m(scene, &bending, 15));
+  }
+  EXPECT_LT(moving_m, 0.5 * still_m);
+}
+
+TEST(ScanBending, MotionIsToldWherePlacesAreKnown) {
+  Rng rng = make_stream(1, "scan_bending_test");
+  const BentScene scene = moving_scene({.num_scans = 12, .noise_m = 0.01, .step_m = 0}, kMotion_m, rng);
+  EXPECT_GT(bending_of(scene, Known::kPlace).motion_m(), 0);
+  EXPECT_EQ(bending_of(scene, Known::kNothing).motion_m(), 0);
 }
 
 // What one pair says may be an error that all of its matches share.
@@ -138,11 +190,13 @@ TEST(ScanBending, DoesNotDependOnTheOrderOfLinks) {
 }
 
 TEST(ScanBending, NothingToMatchIsNothing) {
-  ScanBending bending({Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()}, {true, true});
-  bending.estimate({}, {{}, {}}, 0.01, 0.2, 1);
+  ScanOrigin origin;
+  origin.located = origin.swept = true;
+  ScanBending bending({origin, origin});
+  bending.estimate({}, {{}, {}}, {0.01, 0.2}, 1);
   EXPECT_FALSE(bending.any());
   JointLink empty{0, 1, {}};
-  bending.estimate({empty}, {{}, {}}, 0.01, 0.2, 1);
+  bending.estimate({empty}, {{}, {}}, {0.01, 0.2}, 1);
   EXPECT_FALSE(bending.any());
   EXPECT_EQ(bending.sums(empty, {}, {}, 0.01).tt.norm(), 0);
 }

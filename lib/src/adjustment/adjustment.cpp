@@ -1,5 +1,6 @@
 #include "adjustment/adjustment.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -33,15 +34,24 @@ std::size_t lp_matches_of_link(std::size_t num_links, LpSolver solver) {
   return std::min(all / std::max<std::size_t>(1, num_links), kLpMatchesOfLink);
 }
 
-/// A scan is taken to be bent only where lines that were swept about one place tell that it spun, and where from.
-ScanBending bending_of(const std::vector<PreparedScan>& scans, bool is_wanted) {
-  Points places;
-  std::vector<bool> swept;
+/// A scan is taken to be bent only where it is known where it was taken from. The scanner's axis is the direction that
+/// its rays have least of: they go all around it, and less far up and down.
+std::vector<ScanOrigin> origins_of(const std::vector<PreparedScan>& scans, bool is_wanted) {
+  std::vector<ScanOrigin> out;
   for (const auto& scan : scans) {
-    swept.push_back(is_wanted && scan.sight.swept);
-    places.push_back(swept.back() ? scan.sight.places.front() : Eigen::Vector3d::Zero());
+    ScanOrigin& origin = out.emplace_back();
+    if (!is_wanted || !(scan.sight.swept || scan.sight.sees_space())) continue;
+    origin.located = true;
+    origin.swept = scan.sight.swept;
+    origin.place = scan.sight.places.front();
+    Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+    for (const auto& point : scan.fine_sample.points) {
+      const Eigen::Vector3d ray = (point - origin.place).stableNormalized();
+      sum += ray * ray.transpose();
+    }
+    origin.axis = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(sum).eigenvectors().col(0);
   }
-  return ScanBending(std::move(places), std::move(swept));
+  return out;
 }
 
 class Adjustment {
@@ -56,7 +66,7 @@ class Adjustment {
         lp_(lp),
         context_(context),
         T_reference_scan_(T_reference_scan),
-        bending_(bending_of(scans, bending)) {}
+        bending_(origins_of(scans, bending)) {}
 
   /// False where it has no solution, or is none: from some 250 scans on.
   bool lp_step(double gate_m) {
@@ -101,8 +111,9 @@ class Adjustment {
     if (!(threshold_m > 0)) return false;
     const std::vector<TwistFrame> frames = scan_frames(scans_, T_reference_scan_);
     if (record_.num_steps == 0) {
-      bending_.estimate(links, frames, noise_m, block_m_, context_.num_threads);
+      bending_.estimate(links, frames, {noise_m, block_m_}, context_.num_threads);
       record_.bending_m = bending_.offset_m();
+      record_.motion_m = bending_.motion_m();
     }
     const Eigen::VectorXd x =
         bending_.any() ? solve_with_bending(links, frames, threshold_m) : solve_for_poses(links, frames, threshold_m);

@@ -53,8 +53,8 @@ class HeightMapSearch {
   ScansFromAbove from_above_;
   const RunContext& context_;
   const KeptSearches& kept_;
-  std::vector<HeightMapGrids> of_scans_;                                // once they are asked for
-  std::map<ScanPairs::value_type, PairScreening> screened_;             // the same
+  std::vector<HeightMapGrids> of_scans_;                               // once they are asked for
+  std::map<ScanPairs::value_type, PairScreening> screened_;            // the same
   std::map<ScanPairs::value_type, std::vector<PoseCandidate>> found_;  // the same, on the set's own grids
 };
 

@@ -98,8 +98,9 @@ void transfer(Record& record, T& value) {
 
 template <typename Record, MaybeConst<AdjustmentRecord> T>
 void transfer(Record& record, T& value) {
-  auto& [lp, lp_status, num_lp_matches, lp_rms_move_m, num_steps, rms_move_m, bending_m, outlying_pairs] = value;
-  record(lp, lp_status, num_lp_matches, lp_rms_move_m, num_steps, rms_move_m, bending_m, outlying_pairs);
+  auto& [lp, lp_status, num_lp_matches, lp_rms_move_m, num_steps, rms_move_m, bending_m, motion_m, outlying_pairs] =
+      value;
+  record(lp, lp_status, num_lp_matches, lp_rms_move_m, num_steps, rms_move_m, bending_m, motion_m, outlying_pairs);
 }
 
 namespace {

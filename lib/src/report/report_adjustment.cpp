@@ -38,6 +38,7 @@ Json adjustment_json(const PipelineResult& result) {
           {"steps", a.num_steps},
           {"rms_move_m", a.rms_move_m},
           {"bending_m", a.bending_m},
+          {"motion_m", a.motion_m},
           {"outlying_links", outlying},
           {"noise_m", u.noise_m},
           {"block_m", u.block_m},

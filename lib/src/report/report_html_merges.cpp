@@ -94,6 +94,7 @@ std::string adjustment_section(const Json& report) {
              {"least-squares steps", count(a.at("steps"))},
              {"rms move in the last step", figure(a.at("rms_move_m"), 1000) + " mm"},
              {"scans are bent by, at least", figure(a.at("bending_m"), 1000) + " mm"},
+             {"scanners moved in a turn by, at least", figure(a.at("motion_m"), 1000) + " mm"},
              {"noise of distances to planes", figure(a.at("noise_m"), 1000) + " mm"},
              {"errors are independent beyond", figure(a.at("block_m")) + " m"},
              {"1\u03C3 grew by correlation", "\u00D7 " + figure(a.at("correlation_factor"))},

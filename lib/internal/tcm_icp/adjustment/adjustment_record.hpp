@@ -19,6 +19,7 @@ struct AdjustmentRecord {
   int num_steps = 0;                       ///< of the least squares that follow
   double rms_move_m = 0;                   ///< [m] of the scans, in the last of them
   double bending_m = 0;  ///< [m] RMS offset of points that scanners' motion during a turn was found to cause
+  double motion_m = 0;   ///< [m] RMS motion of the scanners during a turn, as far as it was found
   std::vector<std::pair<std::size_t, std::size_t>>
       outlying_pairs;  ///< fit far worse than the others, see outlying_links
 };
