@@ -53,15 +53,19 @@ class RegisterUnguided : public CliTest {
     ASSERT_EQ(result.exit_code, 0) << result.err;
     expect_all_right(moved_back(poses("result"), moves));
   }
+  /// What registering the simulated scans of a folder came to.
+  nlohmann::json score_of(const std::string& scans, int num_scans, const Words& options = {}) const {
+    Words files;
+    for (int i = 0; i < num_scans; ++i) files.push_back(scans + (i < 10 ? "/00" : "/0") + std::to_string(i) + ".ply");
+    register_to("result", files + Words{"--force"} + options);
+    run({"evaluate", "--poses", "result/poses.json", "--truth", scans + "/truth.json", "--scans", scans, "--json",
+         "score.json"});
+    return read_json(folder() / "score.json");
+  }
   /// What registering six simulated scans of equal rooms along a corridor came to.
   nlohmann::json score_of_rooms(const std::string& seed) const {
     EXPECT_EQ(run({"simulate", "--scene", "interior", "--scans", "6", "--seed", seed, "--out", "rooms"}).exit_code, 0);
-    Words files;
-    for (int i = 0; i < 6; ++i) files.push_back("rooms/00" + std::to_string(i) + ".ply");
-    register_to("result", files);
-    run({"evaluate", "--poses", "result/poses.json", "--truth", "rooms/truth.json", "--scans", "rooms", "--json",
-         "score.json"});
-    return read_json(folder() / "score.json");
+    return score_of("rooms", 6);
   }
 };
 
@@ -264,6 +268,25 @@ TEST_F(RegisterUnguided, AMirroredScanStaysOut) {
   const SceneScore score = score_town(file);
   EXPECT_EQ(score.count(PoseVerdict::kOk), 5U) << "the others are none the worse";
   EXPECT_EQ(score.count(PoseVerdict::kWrong), 0U);
+}
+
+// A car at 10 m/s whose scanner turns ten times a second, and nobody corrects for it: each sweep is bent by a metre.
+TEST_F(RegisterUnguided, SweepsOfAMovingScannerDoNotBendTheStreet) {
+  ASSERT_EQ(
+      run({"simulate", "--scene",         "street", "--sensor", "spinning", "--lines",       "32",   "--min-elevation",
+           "-25",      "--max-elevation", "15",     "--step",   "0.5",      "--spacing",     "1.5",  "--scans",
+           "12",       "--thinning",      "0",      "--speed",  "10",       "--range-noise", "0.01", "--seed",
+           "5",        "--out",           "street"})
+          .exit_code,
+      0);
+  const auto rigid = score_of("street", 12, {"--adjustment.bending", "no"});
+  EXPECT_EQ(read_json(folder() / "result/report.json")["adjustment"]["motion_m"], 0);
+  const auto bent = score_of("street", 12);
+  EXPECT_EQ(bent["ok"], 12);
+  EXPECT_LT(bent["max_rmse"].get<double>(), 0.7 * rigid["max_rmse"].get<double>());
+  const double motion_m = read_json(folder() / "result/report.json")["adjustment"]["motion_m"];
+  EXPECT_GT(motion_m, 0.4) << "rather less than too much";
+  EXPECT_LT(motion_m, 1.1);
 }
 
 }  // namespace
