@@ -94,14 +94,14 @@ ScanBending::Harmonic ScanBending::harmonic_gradient(const JointLink& link, cons
 
 // Of the residual by a step of the link's target or source.
 ScanBending::Gradient ScanBending::gradient(const JointLink& link, const Correspondence& match, bool is_target,
-                                            const TwistFrame& frame, double turned) const {
+                                            const TwistFrame& frame, double share) const {
   const std::size_t scan = is_target ? link.target : link.source;
   Gradient out = Gradient::Zero();
   out.head<kPoseUnknowns>() = (is_target ? -1 : 1) * residual_gradient(match, frame);
   if (harmonic_.any() && origins_[scan].swept) {
     out.segment<kHarmonicUnknowns>(kPoseUnknowns) = harmonic_gradient(link, match, is_target);
   }
-  out[kBentUnknowns - 1] = turned / 2 * match.precision * match.normal.dot(ways_[scan]);
+  out[kBentUnknowns - 1] = share / 2 * match.precision * match.normal.dot(ways_[scan]);
   return out;
 }
 

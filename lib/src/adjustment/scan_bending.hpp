@@ -41,6 +41,7 @@ struct ScanOrigin {
 /// another. Their deviations are the most likely ones; where one is 0, that part is not solved for.
 class ScanBending {
  public:
+  /// @param origins  of each scan; scans that are not located are not bent
   explicit ScanBending(std::vector<ScanOrigin> origins);
 
   /// To be called when poses have moved.
@@ -75,11 +76,12 @@ class ScanBending {
   void find_ways(const std::vector<JointLink>& links);
   Eigen::Vector3d direction(std::size_t scan, const Eigen::Vector3d& point) const;
   Eigen::Vector3d offset_of(std::size_t scan, const Eigen::Vector3d& point) const;
-  /// By how much of a turn, -1/2 to 1/2, the source scan sees a place farther on than the target does.
+  /// By how much of a turn the source scan sees a place farther on than the target does, of either sign; 0 where that
+  /// says nothing.
   double turned(const JointLink& link, const Correspondence& match) const;
   Harmonic harmonic_gradient(const JointLink& link, const Correspondence& match, bool is_target) const;
   Gradient gradient(const JointLink& link, const Correspondence& match, bool is_target, const TwistFrame& frame,
-                    double turned) const;
+                    double share) const;
 
   std::vector<ScanOrigin> origins_;
   // In the common frame:
