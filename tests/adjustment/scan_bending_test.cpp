@@ -114,9 +114,19 @@ std::vector<Twist> steps_m(const BentScene& scene, ScanBending* bending, int rou
   return steps;
 }
 
-// The poses are right to begin with: what is solved for are the steps that bends make of nothing.
+/// Sums over sets of the largest errors of poses.
+struct Errors {
+  double poses_alone_m = 0, with_bending_m = 0;
+
+  /// The poses are right to begin with: what is solved for are the steps that bends make of nothing.
+  void add(const BentScene& scene, ScanBending& bending) {
+    poses_alone_m += largest_error_m(scene, steps_m(scene, nullptr, 15));
+    with_bending_m += largest_error_m(scene, steps_m(scene, &bending, 15));
+  }
+};
+
 TEST(ScanBending, IsFoundAndMovesPosesLess) {
-  double straight_m = 0, bent_m = 0;
+  Errors errors;
   for (const std::uint64_t seed : {1u, 2u, 3u, 4u}) {
     Rng rng = make_stream(seed, "scan_bending_test");
     const BentScene scene =
@@ -125,11 +135,10 @@ TEST(ScanBending, IsFoundAndMovesPosesLess) {
     ASSERT_TRUE(bending.any());
     EXPECT_LT(bending.offset_m(), 1.5 * std::sqrt(3) * kDeviation_m);
     EXPECT_GT(bending.offset_m(), 0.3 * std::sqrt(3) * kDeviation_m) << "rather less than too much";
-    straight_m += largest_error_m(scene, steps_m(scene, nullptr, 15));
-    bent_m += largest_error_m(scene, steps_m(scene, &bending, 15));
+    errors.add(scene, bending);
   }
-  ASSERT_GT(straight_m, 4 * kDeviation_m) << "the start must fail";
-  EXPECT_LT(bent_m, 0.9 * straight_m) << "part of what bends is taken for noise";
+  ASSERT_GT(errors.poses_alone_m, 4 * kDeviation_m) << "the start must fail";
+  EXPECT_LT(errors.with_bending_m, 0.9 * errors.poses_alone_m) << "part of what bends is taken for noise";
 }
 
 TEST(ScanBending, IsNotFoundWhereThereIsNone) {
@@ -153,7 +162,7 @@ TEST(ScanBending, IsAskedOfSweptScansAlone) {
 }
 
 TEST(ScanBending, MotionDuringATurnIsFoundAndMovesPosesLess) {
-  double still_m = 0, moving_m = 0;
+  Errors errors;
   for (const std::uint64_t seed : {1u, 2u, 3u, 4u}) {
     Rng rng = make_stream(seed, "scan_bending_test");
     const BentScene scene =
@@ -161,10 +170,9 @@ TEST(ScanBending, MotionDuringATurnIsFoundAndMovesPosesLess) {
     ScanBending bending = bending_of(scene, Known::kPlace);
     EXPECT_LT(bending.motion_m(), 1.2 * kMotion_m);
     EXPECT_GT(bending.motion_m(), 0.4 * kMotion_m) << "rather less than too much";
-    still_m += largest_error_m(scene, steps_m(scene, nullptr, 15));
-    moving_m += largest_error_m(scene, steps_m(scene, &bending, 15));
+    errors.add(scene, bending);
   }
-  EXPECT_LT(moving_m, 0.5 * still_m);
+  EXPECT_LT(errors.with_bending_m, 0.5 * errors.poses_alone_m);
 }
 
 TEST(ScanBending, MotionIsToldWherePlacesAreKnown) {

@@ -13,6 +13,7 @@
 
 #include "registration/joint_normal_equations.hpp"
 #include "registration/link_scores.hpp"
+#include "tcm_icp/core/morton_code.hpp"
 #include "tcm_icp/core/parallel.hpp"
 #include "tcm_icp/registration/joint_links.hpp"
 
@@ -31,8 +32,8 @@ struct MatchNoise {
   double block_m = 0;  ///< [m] smallest edge of a place: the resolution of the points
 };
 
-/// The cube of the edge about `centre` that a point lies in. Cubes of twice the edge are those without the last three
-/// bits.
+/// The cube of the edge that a point lies in, along Morton's curve about `centre`: cubes of twice the edge are those
+/// without the last three bits.
 std::uint64_t cube_of(const Eigen::Vector3d& point, const Eigen::Vector3d& centre, double edge_m);
 
 /// A score of one match, and where it lies.
@@ -42,15 +43,14 @@ struct PlacedScore {
   Eigen::Matrix<double, kUnknowns, 1> score;
 };
 
-constexpr int kCubeBits = 21;  // of a cube's number along an axis: three axes in 64 bits
-std::size_t least_cubes();     // the scatter of fewer says little
+std::size_t least_cubes();  // the scatter of fewer says little
 
 /// Squares of the sums over the scores of each cube: of the edge, among the smallest and its doubles, that gives most.
 template <int kUnknowns>
 double squares_of_places(std::vector<PlacedScore<kUnknowns>>& scores) {
   std::sort(scores.begin(), scores.end(), [](const auto& a, const auto& b) { return a.cube < b.cube; });
   double most = 0;
-  for (int doublings = 0; doublings < kCubeBits; ++doublings) {
+  for (int doublings = 0; doublings < kMortonBits; ++doublings) {
     double squares = 0;
     std::size_t places = 0;
     for (std::size_t begin = 0; begin < scores.size(); ++places) {
