@@ -143,8 +143,9 @@ TEST_F(ComparedPairsTest, WhatAPairWasMeasuredAtCountsForThosePosesAndAgainstThe
     EXPECT_NEAR(support(with, 0), std::log(std::exp(missed) + std::exp(log_odds + by_chance)), 1e-6) << log_odds;
     EXPECT_LE(support(with, 0), with.pairs()[0].hypotheses[1].most_support + 1e-9);
     const Component both = world.truth({0, 1});
-    EXPECT_NEAR(with.support_across(with.pairs()[0], *both.T_reference_scan[0], *both.T_reference_scan[1], 0).support,
-                support(with, 0), 1e-9);
+    EXPECT_NEAR(
+        with.support_across(with.pairs()[0], *both.T_reference_scan[0], *both.T_reference_scan[1], 0, 1).support,
+        support(with, 0), 1e-9);
     for (const double off_m : {0.2 * kSame_m, 0.4 * kSame_m, 2 * kSame_m}) {
       EXPECT_EQ(support(with, off_m), support(without, off_m)) << "of other poses it says nothing";
     }

@@ -75,7 +75,7 @@ TEST(PipelineOptions, BoundsOfInferenceAreChecked) {
            [](InferenceOptions& o) { o.set_spread = -1; }, [](InferenceOptions& o) { o.firm_left = 1.1; },
            [](InferenceOptions& o) { o.loose_left = o.firm_left; }, [](InferenceOptions& o) { o.log_slid = -1; },
            [](InferenceOptions& o) { o.max_starts = 0; }, [](InferenceOptions& o) { o.max_grown_scans = 0; },
-           [](InferenceOptions& o) { o.max_sweeps = 0; }}) {
+           [](InferenceOptions& o) { o.max_sweeps = 0; }, [](InferenceOptions& o) { o.log_alike = -1; }}) {
     PipelineOptions options;
     set(options.inference);
     EXPECT_THROW(options.validate(), InvalidOptions);

@@ -60,6 +60,8 @@ PairGraph::PairGraph(std::vector<ComparedPair> pairs, std::vector<PointMoments> 
     num_teachers_ += pairs_[k].teachers.size();
     of_scan_[pairs_[k].a].push_back(k);
     of_scan_[pairs_[k].b].push_back(k);
+    const auto& all = pairs_[k].hypotheses;
+    if (std::any_of(all.begin(), all.end(), [](const auto& h) { return h.is_there; })) measured_.push_back(k);
   }
   for (const PointMoments& points : moments_) {
     const SymmetricEigen<3> axes = symmetric_eigen3(points.covariance);
@@ -81,13 +83,19 @@ PairGraph PairGraph::with(const std::vector<ComparedPair>& more) const {
   return {std::move(all), moments_, same_m_, options_};
 }
 
+const PoseHypothesis* PairGraph::measured_at(const ComparedPair& pair, const Eigen::Isometry3d& T_a,
+                                             const Eigen::Isometry3d& T_b) const {
+  const auto found = std::find_if(pair.hypotheses.begin(), pair.hypotheses.end(),
+                                  [&](const auto& h) { return h.is_there && is_at(pair, h, T_a, T_b); });
+  return found == pair.hypotheses.end() ? nullptr : &*found;
+}
+
 template <typename Visit>
 void PairGraph::for_agreeing(const ComparedPair& pair, const Eigen::Isometry3d& T_a, const Eigen::Isometry3d& T_b,
                              Visit visit) const {
   const Eigen::Vector3d mean =
       T_a.linear().transpose() * (T_b * moments_[pair.b].mean - T_a.translation());  // of b in a's frame
-  const bool is_measured = std::any_of(pair.hypotheses.begin(), pair.hypotheses.end(),
-                                       [&](const auto& h) { return h.is_there && is_at(pair, h, T_a, T_b); });
+  const bool is_measured = measured_at(pair, T_a, T_b) != nullptr;
   for (const PoseHypothesis& h : pair.hypotheses) {
     if (is_measured ? h.implied && !h.is_there : h.is_there) continue;
     if ((h.mean - mean).squaredNorm() >= same_m_ * same_m_) continue;  // points are farther apart than their mean
@@ -112,12 +120,13 @@ Agreement PairGraph::agreement(const ComparedPair& pair, const Eigen::Isometry3d
 }
 
 SupportAcross PairGraph::support_across(const ComparedPair& pair, const Eigen::Isometry3d& T_a,
-                                        const Eigen::Isometry3d& T_b, double taught_by_others) const {
+                                        const Eigen::Isometry3d& T_b, double taught_by_others, double alike) const {
   std::optional<SupportAcross> most;
+  const double less = alike > 0 && measured_at(pair, T_a, T_b) != nullptr ? alike : 0;
   for_agreeing(pair, T_a, T_b, [&](const PoseHypothesis& h, double, double farther) {
     const double says = h.as_found(farther).says(odds_found(h, farther));
     const double log_odds = std::min(h.log_odds - std::max(0.0, h.taught - taught_by_others), options_.most_log_odds);
-    const double chance = options_.log_poses - options_.log_implied - options_.log_spread * farther;
+    const double chance = options_.log_poses - options_.log_implied - options_.log_spread * farther - less;
     const double says_of_twins = h.as_implied(farther).says(std::exp(log_odds + chance));
     if (!most) most = {says, says_of_twins};
     most = {std::max(most->support, says), std::max(most->against_twins, says_of_twins)};

@@ -39,6 +39,8 @@ struct PoseHypothesis {
   /// Implied, and measured at the very poses that others imply, where no fit of the pair has ended: what it shows
   /// there, for them or against them. It tells nothing of others.
   bool is_there = false;
+  double points_seen = 0;     ///< of a pair that was measured: points at surfaces the other saw, or before them
+  double points_through = 0;  ///< of these, before them
   // PairGraph's
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();  ///< of b's points, in a's frame
   Telling telling = {};                            ///< were it implied: the less, the less overlaps
@@ -101,6 +103,8 @@ class PairGraph {
   std::size_t num_scans() const { return moments_.size(); }
   const std::vector<ComparedPair>& pairs() const { return pairs_; }
   const std::vector<std::size_t>& pairs_of(std::size_t scan) const { return of_scan_[scan]; }
+  /// Pairs that were measured at poses that others imply, ascending.
+  const std::vector<std::size_t>& measured_pairs() const { return measured_; }
   const InferenceOptions& options() const { return options_; }
 
   bool same_pose(std::size_t scan, const Eigen::Isometry3d& T, const Eigen::Isometry3d& U) const {
@@ -145,8 +149,13 @@ class PairGraph {
 
   /// The same, and against twins.
   /// @param taught_by_others  the set's constant by what poses at a twin would not have taught
+  /// @param alike  >= 0; where the pair was measured at these poses: by how much less its agreement says against twins
   SupportAcross support_across(const ComparedPair& pair, const Eigen::Isometry3d& T_a, const Eigen::Isometry3d& T_b,
-                               double taught_by_others) const;
+                               double taught_by_others, double alike) const;
+
+  /// What a pair showed where it was measured at these very poses; null where it was not.
+  const PoseHypothesis* measured_at(const ComparedPair& pair, const Eigen::Isometry3d& T_a,
+                                    const Eigen::Isometry3d& T_b) const;
 
   /// The set's constant as it would be without these pairs, ascending; infinite where they are too few to matter. Cost:
   /// all hypotheses that taught it.
@@ -186,6 +195,7 @@ class PairGraph {
   double same_m_;
   InferenceOptions options_;
   std::vector<std::vector<std::size_t>> of_scan_;
+  std::vector<std::size_t> measured_;
   std::size_t num_teachers_ = 0;
 };
 

@@ -7,6 +7,7 @@
 
 #include "inference/minimum_cuts.hpp"
 #include "inference/pairs_across.hpp"
+#include "inference/seen_through.hpp"
 #include "tcm_icp/core/parallel.hpp"
 
 namespace tcm_icp {
@@ -117,6 +118,8 @@ std::vector<Cut> weakest_cuts(const PairGraph& graph, const Component& component
   for (const std::size_t i : component.members()) {
     if (i != component.reference) parts.push_back({i});
   }
+  const auto seen_through = SeenThrough(graph, component).parts(kUsualExcess);
+  parts.insert(parts.end(), seen_through.begin(), seen_through.end());
   sort_without_repeats(parts);
   std::vector<Cut> cuts(parts.size());
   parallel_for(num_threads, parts.size(), [&](std::size_t begin, std::size_t end) {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <iterator>
 
+#include "inference/seen_through.hpp"
+
 namespace tcm_icp {
 
 PairsAcross::PairsAcross(const PairGraph& graph, const Component& component, const std::vector<std::size_t>& moved)
@@ -27,6 +29,8 @@ PairsAcross::PairsAcross(const PairGraph& graph, const Component& component, con
   }
   std::sort(across.begin(), across.end());
   taught_by_others_ = graph.constant_without(across);
+  const double excess = SeenThrough(graph, component).excess(is_moved);
+  alike_ = graph.options().log_alike * std::clamp((excess - kUsualExcess) / (kTwinExcess - kUsualExcess), 0.0, 1.0);
 }
 
 Eigen::Isometry3d PairsAcross::motion_by(const Hypothesis& h) const {
@@ -46,8 +50,8 @@ bool PairsAcross::is_elsewhere(const Hypothesis& h) const { return !is_at(h, Eig
 
 SupportAcross PairsAcross::support_of(const Pair& p, const Eigen::Isometry3d& motion) const {
   const Eigen::Isometry3d &T_a = pose(p.pair->a), &T_b = pose(p.pair->b);
-  return p.moves_b ? graph_.support_across(*p.pair, T_a, motion * T_b, taught_by_others_)
-                   : graph_.support_across(*p.pair, motion * T_a, T_b, taught_by_others_);
+  return p.moves_b ? graph_.support_across(*p.pair, T_a, motion * T_b, taught_by_others_, alike_)
+                   : graph_.support_across(*p.pair, motion * T_a, T_b, taught_by_others_, alike_);
 }
 
 bool PairsAcross::may_agree(const Hypothesis& h, const Eigen::Isometry3d& motion, const Eigen::Isometry3d& back) const {

@@ -18,8 +18,8 @@ class PairsAcross {
   PairsAcross(const PairGraph& graph, const Component& component, const std::vector<std::size_t>& moved);
 
   /// What the pairs say for the part at motion * T, T its poses in the component: against places that agree by chance,
-  /// less log_poses, or against a twin, which is rarer by log_twins, whichever is less. Cost: the hypotheses of the
-  /// pairs.
+  /// less log_poses, or against a twin, which is rarer by log_twins, whichever is less. Where more is seen through
+  /// across than within, agreement says less against a twin (log_alike). Cost: the hypotheses of the pairs.
   double support(const Eigen::Isometry3d& motion) const;
 
   struct Elsewhere {
@@ -79,6 +79,7 @@ class PairsAcross {
   std::vector<Pair> pairs_;
   std::vector<Hypothesis> hypotheses_;  // in the order of the pairs
   double taught_by_others_;  // the set's constant without the pairs across: at a twin they teach what is wrong
+  double alike_ = 0;         // by how much less pairs say against twins, as free space has it
 };
 
 }  // namespace tcm_icp

@@ -54,6 +54,7 @@ void InferenceOptions::validate() const {
   require(loose_left > firm_left, "inference loose_left must be above firm_left", loose_left);
   require(log_slid >= 0, "inference log_slid must be at least 0", log_slid);
   require(log_twins >= 0, "inference log_twins must be at least 0", log_twins);
+  require(log_alike >= 0, "inference log_alike must be at least 0", log_alike);
   require(log_spread >= 0, "inference log_spread must be at least 0", log_spread);
   require(most_log_odds > 0, "inference most_log_odds must be above 0", most_log_odds);
   require(max_starts >= 1, "inference max_starts must be at least 1", max_starts);

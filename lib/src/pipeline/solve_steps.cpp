@@ -47,9 +47,10 @@ void transfer(Record& record, T& value) {
 
 template <typename Record, MaybeConst<PoseHypothesis> T>
 void transfer(Record& record, T& value) {
-  auto& [T_a_b, log_odds, implied, overlap, weakest_left, taught, is_there, mean, telling, slid, most_support] = value;
-  record(T_a_b, log_odds, implied, overlap, weakest_left, taught, is_there, mean, telling.missed, telling.shows, slid,
-         most_support);
+  auto& [T_a_b, log_odds, implied, overlap, weakest_left, taught, is_there, points_seen, points_through, mean, telling,
+         slid, most_support] = value;
+  record(T_a_b, log_odds, implied, overlap, weakest_left, taught, is_there, points_seen, points_through, mean,
+         telling.missed, telling.shows, slid, most_support);
 }
 
 template <typename Record, MaybeConst<JudgedHypothesis> T>
@@ -66,10 +67,10 @@ void transfer(Record& record, T& value) {
 
 template <typename Record, MaybeConst<InferenceOptions> T>
 void transfer(Record& record, T& value) {
-  auto& [poses, implied, missed, missed_there, telling, firm_left, loose_left, slid, twins, spread, most_log_odds,
-         set_spread, max_starts, max_grown, max_sweeps] = value;
-  record(poses, implied, missed, missed_there, telling, firm_left, loose_left, slid, twins, spread, most_log_odds,
-         set_spread, max_starts, max_grown, max_sweeps);
+  auto& [poses, implied, missed, missed_there, telling, firm_left, loose_left, slid, twins, alike, spread,
+         most_log_odds, set_spread, max_starts, max_grown, max_sweeps] = value;
+  record(poses, implied, missed, missed_there, telling, firm_left, loose_left, slid, twins, alike, spread,
+         most_log_odds, set_spread, max_starts, max_grown, max_sweeps);
 }
 
 template <typename Record, MaybeConst<RobustTcmOptions> T>
