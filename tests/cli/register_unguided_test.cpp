@@ -270,6 +270,17 @@ TEST_F(RegisterUnguided, AMirroredScanStaysOut) {
   EXPECT_EQ(score.count(PoseVerdict::kWrong), 0U);
 }
 
+// A building of bays with few things in them: its halves agree the other way about, too, but for what is seen through.
+TEST_F(RegisterUnguided, HalvesThatAreAlikeAreNotHungTheWrongWay) {
+  ASSERT_EQ(run({"simulate", "--scene", "bays", "--scans", "10", "--clutter", "0.3", "--thinning", "0.1", "--seed", "4",
+                 "--out", "bays"})
+                .exit_code,
+            0);
+  const auto score = score_of("bays", 10);
+  EXPECT_EQ(score["wrong"], 0) << "five were";
+  EXPECT_GE(score["ok"], 5);
+}
+
 // A car at 10 m/s whose scanner turns ten times a second, and nobody corrects for it: each sweep is bent by a metre.
 TEST_F(RegisterUnguided, SweepsOfAMovingScannerDoNotBendTheStreet) {
   ASSERT_EQ(
