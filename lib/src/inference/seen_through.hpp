@@ -16,7 +16,7 @@ constexpr double kUsualExcess = 0.5, kTwinExcess = 1;
 /// other. So do scans with people about, but all their pairs alike, within a part and across.
 class SeenThrough {
  public:
-  /// Pairs of the component that were measured at these very poses. Cost: all pairs.
+  /// Pairs of the component that were measured at these very poses. Cost: the pairs that were measured anywhere.
   SeenThrough(const PairGraph& graph, const Component& component);
 
   /// Logarithm of how many times as much is seen through across a cut as within the side that sees through less, less a
