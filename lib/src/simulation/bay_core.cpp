@@ -2,8 +2,9 @@
 
 #include <numbers>
 
-#include "simulation/bay_stairs.hpp"
+#include "simulation/bay_plan.hpp"
 #include "simulation/draw.hpp"
+#include "simulation/stairs.hpp"
 #include "simulation/town_objects.hpp"
 
 namespace tcm_icp {
@@ -47,7 +48,7 @@ void add_lifts(TriangleMesh& mesh, const BayPlan& plan, int storey) {
 
 void add_bay_core(TriangleMesh& mesh, const BayPlan& plan) {
   for (int storey = 0; storey < plan.storeys; ++storey) add_lifts(mesh, plan, storey);
-  const BayStairs stairs(plan);
+  const Stairs stairs(plan.opening(), plan.storey_m);
   for (int storey = 1; storey < plan.storeys; ++storey) {
     stairs.add_to(mesh, plan.floor_m(storey - 1));
     stairs.guard(mesh, plan.floor_m(storey));

@@ -1,7 +1,7 @@
 #include "simulation/bay_plan.hpp"
 
-#include "simulation/bay_stairs.hpp"
 #include "simulation/draw.hpp"
+#include "simulation/stairs.hpp"
 
 namespace tcm_icp {
 
@@ -34,9 +34,10 @@ Points path_around(const BayPlan& plan, int storey) {
 }
 
 Points path_through(const BayPlan& plan) {
+  const Stairs stairs(plan.opening(), plan.storey_m);
   Points path = path_around(plan, 0);
   for (int storey = 1; storey < plan.storeys; ++storey)
-    for (const Points& part : {BayStairs(plan).path(plan.floor_m(storey - 1)), path_around(plan, storey)})
+    for (const Points& part : {stairs.path(plan.floor_m(storey - 1)), path_around(plan, storey)})
       path.insert(path.end(), part.begin(), part.end());
   return path;
 }

@@ -3,12 +3,11 @@
 
 #include <Eigen/Geometry>
 
+#include "simulation/box.hpp"
 #include "tcm_icp/core/random.hpp"
 #include "tcm_icp/simulation/scene.hpp"
 
 namespace tcm_icp {
-
-constexpr double kPlaster = 0.7, kConcrete = 0.5;  // reflectivities
 
 /// Columns stand at every (i, j) times `bay_m`, from a corner of the outer walls; bay (i, j) lies between columns i and
 /// i + 1 along x, j and j + 1 along y. Sizes are those of the whole building.

@@ -78,11 +78,19 @@ SceneSetOptions default_bays(SceneSetOptions options) {
   return options;
 }
 
+/// As many stations as see every storey, and the stairs between.
+SceneSetOptions default_storeys(SceneSetOptions options) {
+  options = default_interior(options);
+  options.station_spacing_m = 5;
+  options.num_scans = 20;
+  return options;
+}
+
 }  // namespace
 
 std::vector<SceneKind> scene_kinds() {
   return {SceneKind::kTown,     SceneKind::kBlock, SceneKind::kStreet, SceneKind::kUrban,   SceneKind::kCanopy,
-          SceneKind::kInterior, SceneKind::kPlaza, SceneKind::kBays,   SceneKind::kTownGrid};
+          SceneKind::kInterior, SceneKind::kPlaza, SceneKind::kBays,   SceneKind::kStoreys, SceneKind::kTownGrid};
 }
 
 SceneKind scene_kind_from_name(const std::string& name) {
@@ -112,6 +120,8 @@ std::string scene_name(SceneKind kind) {
       return "plaza";
     case SceneKind::kBays:
       return "bays";
+    case SceneKind::kStoreys:
+      return "storeys";
     case SceneKind::kTownGrid:
       return "town-grid";
   }
@@ -139,6 +149,8 @@ SceneSetOptions default_scene_set(SceneKind kind) {
       return options;
     case SceneKind::kBays:
       return default_bays(options);
+    case SceneKind::kStoreys:
+      return default_storeys(options);
     case SceneKind::kTownGrid:
       options = default_block(options);
       options.num_scans = 60;

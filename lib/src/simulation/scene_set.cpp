@@ -40,6 +40,12 @@ Vector3d mean_of(const Points& points) {
   return points.empty() ? sum : Vector3d(sum / static_cast<double>(points.size()));
 }
 
+/// The way leads along each corridor twice but for the first and the last, into two rooms of each, and up the stairs.
+double corridor_length_m(int storeys, double path_m) {
+  constexpr double kRooms_m = 4, kStairs_m = 11;
+  return (path_m - storeys * kRooms_m - (storeys - 1) * kStairs_m) / (2 * storeys - 2);
+}
+
 Scene make_scene(const SceneSetOptions& options, std::uint64_t seed) {
   Rng rng = make_stream(seed, "scene");
   const double needed_m = options.num_scans * options.station_spacing_m;
@@ -64,6 +70,11 @@ Scene make_scene(const SceneSetOptions& options, std::uint64_t seed) {
       BaysOptions bays = options.bays;
       bays.path_length_m = std::max(8.0, needed_m);
       return make_bays_scene(bays, rng);
+    }
+    case SceneKind::kStoreys: {
+      StoreysOptions storeys;
+      storeys.length_m = std::max(storeys.length_m, corridor_length_m(storeys.storeys, needed_m));
+      return make_storeys_scene(storeys, rng);
     }
     case SceneKind::kTownGrid:
       return make_town_grid_scene({std::max(400.0, needed_m)}, rng);
@@ -135,7 +146,7 @@ void SceneSetOptions::validate() const {
   require(drift_share >= 0 && drift_share <= 0.01, "drift_share", drift_share, "0..0.01");
   require(max_tilt_deg >= 0 && max_tilt_deg <= 90, "max_tilt_deg", max_tilt_deg, "0..90");
   require(max_shift_m >= 0 && std::isfinite(max_shift_m), "max_shift_m", max_shift_m, ">= 0");
-  const bool has_roof = scene == SceneKind::kInterior || scene == SceneKind::kBays;
+  const bool has_roof = scene == SceneKind::kInterior || scene == SceneKind::kBays || scene == SceneKind::kStoreys;
   if (has_roof && scanner.sensor == SensorKind::kAerial)
     throw InvalidOptions("simulate: an aerial sensor sees nothing of " + scene_name(scene) +
                          " but its roof; choose another");

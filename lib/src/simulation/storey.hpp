@@ -22,11 +22,22 @@ struct Room {
 
 class Storey {
  public:
-  Storey(const InteriorOptions& options, Rng& rng);
+  static constexpr double kWall_m = 0.12;
+
+  /// `plan` draws walls, doors and windows, `contents` what stands between them: storeys alike share the former.
+  Storey(double length_m, Rng& plan, Rng& contents);
+
+  double height_m() const { return height_m_; }
+  double half_corridor_m() const { return half_corridor_m_; }
+
+  /// A storey alone.
   Scene build();
 
+  /// Without the wall at the far end of the corridor, where stairs join it to others. The path leads from a room
+  /// through another to that end.
+  Scene build_before_stairs();
+
  private:
-  static constexpr double kWall_m = 0.12;
   static constexpr double kDoorWidth_m = 0.95;
 
   // storey_walls.cpp
@@ -34,7 +45,7 @@ class Storey {
   void wall(const Eigen::AlignedBox3d& b);
   /// A box whose y is counted from the corridor's middle towards `side`.
   void wall(double side, double x0, double x1, double near, double far, double z0, double z1);
-  void build_shell();
+  void build_shell(bool is_closed);
   /// The wall to the corridor with its door, and the wall to the next room.
   void build_walls(const Room& room);
   void build_windows(const Room& room);
@@ -51,8 +62,17 @@ class Storey {
   /// From the first room on one side into the corridor, into a room half way, and into the last room on the other side.
   void lay_path();
 
+  /// From a room into the corridor, into a room of the other side, and to the corridor's end.
+  void lay_path_to_end();
+
+  /// Around the path that is laid.
+  void build_rooms(bool is_closed);
+
+  /// Nothing is put where it leads.
+  void keep_path_free();
+
   const double length_m_;
-  Rng& rng_;
+  Rng &rng_, &contents_;
   const double height_m_, half_corridor_m_;
   std::vector<Room> rooms_;
   SitePlan plan_;

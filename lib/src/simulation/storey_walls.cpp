@@ -11,7 +11,6 @@
 namespace tcm_icp {
 namespace {
 
-constexpr double kPlasterboard = 0.7;
 constexpr double kDoorHeight_m = 2.05;
 
 }  // namespace
@@ -34,19 +33,24 @@ void Storey::divide(double side) {
   }
 }
 
-void Storey::wall(const Eigen::AlignedBox3d& b) { add_box(scene_.mesh, Isometry3d::Identity(), b, kPlasterboard); }
+void Storey::wall(const Eigen::AlignedBox3d& b) { add_box(scene_.mesh, Isometry3d::Identity(), b, kPlaster); }
 
 void Storey::wall(double side, double x0, double x1, double near, double far, double z0, double z1) {
   const double a = side * near, b = side * far;
   wall(box(x0, x1, std::min(a, b), std::max(a, b), z0, z1));
 }
 
-void Storey::build_shell() {
+void Storey::build_shell(bool is_closed) {
   const double y = 9;
   for (const double z : {0.0, height_m_})
     add_quad(scene_.mesh, {-0.2, -y, z}, {length_m_ + 0.2, -y, z}, {length_m_ + 0.2, y, z}, {-0.2, y, z},
-             z == 0 ? 0.4 : kPlasterboard);
-  for (const double x : {-kWall_m, length_m_}) wall(box(x, x + kWall_m, -y, y, 0, height_m_));
+             z == 0 ? 0.4 : kPlaster);
+  for (const double x : {-kWall_m, length_m_}) {
+    if (x < 0 || is_closed)
+      wall(box(x, x + kWall_m, -y, y, 0, height_m_));
+    else
+      for (const double side : {-1.0, 1.0}) wall(side, x, x + kWall_m, half_corridor_m_, y, 0, height_m_);
+  }
   for (double x = uniform(rng_, 1, 2); x < length_m_; x += uniform(rng_, 2.6, 3.4))
     wall(box(x, x + 1.2, -0.1, 0.1, height_m_ - 0.12, height_m_ - 0.04));
 }
@@ -58,7 +62,7 @@ void Storey::build_walls(const Room& room) {
   wall(room.side, left, right, near, room.near_m, kDoorHeight_m, height_m_);
   wall(room.side, room.end_m - kWall_m / 2, room.end_m + kWall_m / 2, room.near_m, room.far_m, 0, height_m_);
   // The door stands open, nearly against the wall of its room.
-  const double open = uniform(rng_, 1.8, 2.7);
+  const double open = uniform(contents_, 1.8, 2.7);
   const Isometry3d T_world_hinge = upright_pose({left, room.side * room.near_m, 0}, room.side * open);
   add_box(scene_.mesh, T_world_hinge, box(0, kDoorWidth_m - 0.03, -0.02, 0.02, 0.01, kDoorHeight_m), 0.6);
   const Vector2d middle = (T_world_hinge * Vector3d(kDoorWidth_m / 2, 0, 0)).head<2>();
@@ -77,7 +81,7 @@ void Storey::build_windows(const Room& room) {
     const double x0 = width * i / count, x1 = width * (i + 1) / count, middle = (x0 + x1) / 2;
     const Panel panel{AlignedBox2d(Vector2d(x0, 0), Vector2d(x1, height_m_)),
                       AlignedBox2d(Vector2d(middle - half, sill), Vector2d(middle + half, height_m_ - 0.3)), 0.18};
-    add_panel(scene_.mesh, T_world_wall, panel, kPlasterboard, 0.05);
+    add_panel(scene_.mesh, T_world_wall, panel, kPlaster, 0.05);
     add_box(scene_.mesh, T_world_wall, box(middle - 0.8 * half, middle + 0.8 * half, -0.12, -0.03, 0.12, 0.65), 0.6);
   }
 }

@@ -68,6 +68,18 @@ struct InteriorOptions {
 /// @throws InvalidOptions
 Scene make_interior_scene(const InteriorOptions& options, Rng& rng);
 
+struct StoreysOptions {
+  int storeys = 3;        ///< 2..10, alike but for furniture
+  double length_m = 12;   ///< [m] 12..500, of the corridors
+  void validate() const;  ///< throws InvalidOptions
+};
+
+/// Storeys of a corridor and rooms, as in make_interior_scene, above one another: walls, doors, windows and lamps to
+/// the millimetre, what stands about on each its own. Stairs at one end of the corridors join them. The path leads
+/// through two rooms of each storey, and up the stairs between.
+/// @throws InvalidOptions
+Scene make_storeys_scene(const StoreysOptions& options, Rng& rng);
+
 struct PlazaOptions {
   double half_size_m = 30;  ///< [m] 22..200, of the square
   void validate() const;    ///< throws InvalidOptions

@@ -23,11 +23,12 @@ enum class SceneKind {
   kInterior,  ///< rooms and a corridor
   kPlaza,     ///< a square before a symmetric building
   kBays,      ///< a large building with columns: a place that repeats itself
+  kStoreys,   ///< rooms on storeys that are alike, joined by stairs
   kTownGrid   ///< all streets of a town of several blocks: loops, and few neighbours for each scan
 };
 
-/// "town", "block", "street", "urban", "canopy", "interior", "plaza", "bays", "town-grid"; @throws InvalidOptions
-/// naming the scenes there are
+/// "town", "block", "street", "urban", "canopy", "interior", "plaza", "bays", "storeys", "town-grid"; @throws
+/// InvalidOptions naming the scenes there are
 SceneKind scene_kind_from_name(const std::string& name);
 std::string scene_name(SceneKind kind);
 std::vector<SceneKind> scene_kinds();

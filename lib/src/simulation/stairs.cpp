@@ -1,4 +1,4 @@
-#include "simulation/bay_stairs.hpp"
+#include "simulation/stairs.hpp"
 
 #include <cmath>
 
@@ -32,14 +32,18 @@ void add_handrail(TriangleMesh& mesh, const Vector3d& from, const Vector3d& to) 
 
 }  // namespace
 
-BayStairs::BayStairs(const BayPlan& plan)
-    : opening_(plan.opening()),
+Stairs::Stairs(const Eigen::AlignedBox2d& opening, double storey_m)
+    : opening_(opening),
       middle_m_(opening_.center().y()),
-      half_rise_m_(plan.storey_m / 2),
-      num_steps_(static_cast<int>(std::ceil(half_rise_m_ / 0.175))),
+      half_rise_m_(storey_m / 2),
+      num_steps_(num_steps(storey_m)),
       end_m_(opening_.min().x() + kTread_m * (num_steps_ - 1)) {}
 
-Points BayStairs::path(double floor_m) const {
+int Stairs::num_steps(double storey_m) { return static_cast<int>(std::ceil(storey_m / 2 / 0.175)); }
+
+double Stairs::length_m(double storey_m) { return kTread_m * (num_steps(storey_m) - 1) + kLanding_m; }
+
+Points Stairs::path(double floor_m) const {
   // Through the middle of every tread.
   const double foot = opening_.min().x() - kTread_m / 2, head = end_m_ + kTread_m / 2, turn = end_m_ + kLanding_m / 2;
   const double up = middle_m_ - kFlightMiddle_m, back = middle_m_ + kFlightMiddle_m;
@@ -48,7 +52,7 @@ Points BayStairs::path(double floor_m) const {
           {turn, back, half_way},    {head, back, half_way}, {foot, back, top},    {foot - 0.6, back, top}};
 }
 
-void BayStairs::add_to(TriangleMesh& mesh, double floor_m) const {
+void Stairs::add_to(TriangleMesh& mesh, double floor_m) const {
   const Isometry3d T_world_foot(Eigen::Translation3d(opening_.min().x(), middle_m_, floor_m));
   const double run = end_m_ - opening_.min().x(), riser = half_rise_m_ / num_steps_;
   const double inner = kFlightMiddle_m - kHalfFlight_m, outer = kFlightMiddle_m + kHalfFlight_m;
@@ -70,7 +74,7 @@ void BayStairs::add_to(TriangleMesh& mesh, double floor_m) const {
   rail({end - 0.05, outer - 0.05, half}, {run, outer - 0.05, half});
 }
 
-void BayStairs::guard(TriangleMesh& mesh, double floor_m) const {
+void Stairs::guard(TriangleMesh& mesh, double floor_m) const {
   const Vector3d low(opening_.min().x(), opening_.min().y(), floor_m);
   const Vector3d high(opening_.max().x(), opening_.max().y(), floor_m);
   const double outer = kFlightMiddle_m + kHalfFlight_m;

@@ -1,16 +1,22 @@
 #pragma once
 // Stairs between two storeys alike.
 
-#include "simulation/bay_plan.hpp"
+#include <Eigen/Geometry>
+
 #include "tcm_icp/core/cloud.hpp"
 #include "tcm_icp/simulation/triangle_mesh.hpp"
 
 namespace tcm_icp {
 
-/// Two flights side by side in the opening of a plan: up along x to a landing half way, and back.
-class BayStairs {
+/// Two flights side by side in an opening of the floors: up along x to a landing half way, and back.
+class Stairs {
  public:
-  explicit BayStairs(const BayPlan& plan);
+  static constexpr double kWidth_m = 3.1;  ///< of both flights: an opening is no narrower
+
+  Stairs(const Eigen::AlignedBox2d& opening, double storey_m);
+
+  /// What an opening needs along x.
+  static double length_m(double storey_m);
 
   /// From before the first step on the floor at `floor_m` to behind the last one.
   Points path(double floor_m) const;
@@ -22,6 +28,8 @@ class BayStairs {
   void guard(TriangleMesh& mesh, double floor_m) const;
 
  private:
+  static int num_steps(double storey_m);
+
   static constexpr double kTread_m = 0.28;
   static constexpr double kLanding_m = 1.3;
   static constexpr double kHalfFlight_m = 0.7;
