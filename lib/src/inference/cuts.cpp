@@ -7,18 +7,19 @@
 
 #include "inference/minimum_cuts.hpp"
 #include "inference/pairs_across.hpp"
-#include "inference/seen_through.hpp"
 #include "tcm_icp/core/parallel.hpp"
 
 namespace tcm_icp {
 namespace {
 
-std::vector<WeightedEdge> supported_pairs(const PairGraph& graph, const Component& component) {
+std::vector<WeightedEdge> supported_pairs(const PairGraph& graph, const Component& component,
+                                          const SeenThrough& seen_through) {
   std::vector<WeightedEdge> edges;
   for (const ComparedPair& pair : graph.pairs()) {
     if (!component.has(pair.a) || !component.has(pair.b)) continue;
     const double support =
-        graph.support(pair, *component.T_reference_scan[pair.a], *component.T_reference_scan[pair.b]);
+        graph.support(pair, *component.T_reference_scan[pair.a], *component.T_reference_scan[pair.b]) -
+        seen_through.less_said(pair.a, pair.b);
     if (support > 0) edges.push_back({support, pair.a, pair.b});
   }
   return edges;
@@ -29,6 +30,13 @@ void sort_without_repeats(std::vector<std::vector<std::size_t>>& parts) {
   parts.erase(std::unique(parts.begin(), parts.end()), parts.end());
 }
 
+Cut cut_of(const PairsAcross& across, std::vector<std::size_t> moved, double most_lead) {
+  const double support = across.support(Eigen::Isometry3d::Identity());
+  const auto elsewhere = across.best_elsewhere(std::max(0.0, support - most_lead));
+  const double odds = across.odds_elsewhere(elsewhere.motion);
+  return {std::move(moved), support, elsewhere.motion ? elsewhere.support : 0, elsewhere.motion, odds};
+}
+
 }  // namespace
 
 double Cut::lead() const {
@@ -37,11 +45,8 @@ double Cut::lead() const {
 }
 
 Cut measure_cut(const PairGraph& graph, const Component& component, std::vector<std::size_t> moved, double most_lead) {
-  const PairsAcross across(graph, component, moved);
-  const double support = across.support(Eigen::Isometry3d::Identity());
-  const auto elsewhere = across.best_elsewhere(std::max(0.0, support - most_lead));
-  const double odds = across.odds_elsewhere(elsewhere.motion);
-  return {std::move(moved), support, elsewhere.motion ? elsewhere.support : 0, elsewhere.motion, odds};
+  const PairsAcross across(graph, component, SeenThrough(graph, component), moved);
+  return cut_of(across, std::move(moved), most_lead);
 }
 
 const Cut* weakest_cut_of(std::size_t scan, const std::vector<Cut>& cuts) {
@@ -107,23 +112,28 @@ double Leads::between(std::size_t a, std::size_t b) const {
   return std::numeric_limits<double>::infinity();
 }
 
-std::vector<std::vector<std::size_t>> weakest_parts(const PairGraph& graph, const Component& component) {
-  auto parts = minimum_cuts(supported_pairs(graph, component), component.members(), component.reference);
+std::vector<std::vector<std::size_t>> weakest_parts(const PairGraph& graph, const Component& component,
+                                                    const SeenThrough& seen_through) {
+  auto parts = minimum_cuts(supported_pairs(graph, component, seen_through), component.members(), component.reference);
   sort_without_repeats(parts);
   return parts;
 }
 
 std::vector<Cut> weakest_cuts(const PairGraph& graph, const Component& component, int num_threads, double most_lead) {
-  auto parts = weakest_parts(graph, component);
+  const SeenThrough seen_through(graph, component);
+  auto parts = weakest_parts(graph, component, seen_through);
   for (const std::size_t i : component.members()) {
     if (i != component.reference) parts.push_back({i});
   }
-  const auto seen_through = SeenThrough(graph, component).parts(kUsualExcess);
-  parts.insert(parts.end(), seen_through.begin(), seen_through.end());
+  const auto storeys = seen_through.parts();
+  parts.insert(parts.end(), storeys.begin(), storeys.end());
   sort_without_repeats(parts);
   std::vector<Cut> cuts(parts.size());
   parallel_for(num_threads, parts.size(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) cuts[k] = measure_cut(graph, component, std::move(parts[k]), most_lead);
+    for (std::size_t k = begin; k < end; ++k) {
+      const PairsAcross across(graph, component, seen_through, parts[k]);
+      cuts[k] = cut_of(across, std::move(parts[k]), most_lead);
+    }
   });
   return cuts;
 }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "inference/compared_pairs.hpp"
+#include "inference/seen_through.hpp"
 
 namespace tcm_icp {
 
@@ -35,12 +36,13 @@ struct Cut {
 Cut measure_cut(const PairGraph& graph, const Component& component, std::vector<std::size_t> moved,
                 double most_lead = std::numeric_limits<double>::infinity());
 
-/// The parts that minimum cuts of the pairs' support leave, without the reference, each once: for any two members the
-/// weakest hold between them is among them. Cost: minimum_cuts().
-std::vector<std::vector<std::size_t>> weakest_parts(const PairGraph& graph, const Component& component);
+/// The parts that minimum cuts of the pairs' support against twins leave, without the reference, each once: for any two
+/// members the weakest hold between them is among them. Cost: minimum_cuts().
+std::vector<std::vector<std::size_t>> weakest_parts(const PairGraph& graph, const Component& component,
+                                                    const SeenThrough& seen_through);
 
-/// The cuts of those parts and of every member by itself, each once; the same for any number of threads. Cost:
-/// minimum_cuts(), and PairsAcross::best_elsewhere() for each.
+/// The cuts of those parts, of those that see through one another and of every member by itself, each once; the same
+/// for any number of threads. Cost: minimum_cuts(), and PairsAcross::best_elsewhere() for each.
 /// @param most_lead  as in measure_cut()
 std::vector<Cut> weakest_cuts(const PairGraph& graph, const Component& component, int num_threads = 1,
                               double most_lead = std::numeric_limits<double>::infinity());

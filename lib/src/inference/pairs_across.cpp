@@ -4,11 +4,10 @@
 #include <cmath>
 #include <iterator>
 
-#include "inference/seen_through.hpp"
-
 namespace tcm_icp {
 
-PairsAcross::PairsAcross(const PairGraph& graph, const Component& component, const std::vector<std::size_t>& moved)
+PairsAcross::PairsAcross(const PairGraph& graph, const Component& component, const SeenThrough& seen_through,
+                         const std::vector<std::size_t>& moved)
     : graph_(graph), component_(component) {
   std::vector<bool> is_moved(graph.num_scans(), false);
   for (const std::size_t i : moved) is_moved[i] = true;
@@ -24,13 +23,12 @@ PairsAcross::PairsAcross(const PairGraph& graph, const Component& component, con
         hypotheses_.push_back({&h, pairs_.size(), pose(pair.a) * h.mean});
         most_support = std::max(most_support, h.most_support);
       }
-      pairs_.push_back({&pair, pair.b == i, most_support, pose(pair.b) * graph.mean_of(pair.b)});
+      pairs_.push_back({&pair, pair.b == i, most_support, seen_through.less_said(pair.a, pair.b),
+                        pose(pair.b) * graph.mean_of(pair.b)});
     }
   }
   std::sort(across.begin(), across.end());
   taught_by_others_ = graph.constant_without(across);
-  const double excess = SeenThrough(graph, component).excess(is_moved);
-  alike_ = graph.options().log_alike * std::clamp((excess - kUsualExcess) / (kTwinExcess - kUsualExcess), 0.0, 1.0);
 }
 
 Eigen::Isometry3d PairsAcross::motion_by(const Hypothesis& h) const {
@@ -50,8 +48,8 @@ bool PairsAcross::is_elsewhere(const Hypothesis& h) const { return !is_at(h, Eig
 
 SupportAcross PairsAcross::support_of(const Pair& p, const Eigen::Isometry3d& motion) const {
   const Eigen::Isometry3d &T_a = pose(p.pair->a), &T_b = pose(p.pair->b);
-  return p.moves_b ? graph_.support_across(*p.pair, T_a, motion * T_b, taught_by_others_, alike_)
-                   : graph_.support_across(*p.pair, motion * T_a, T_b, taught_by_others_, alike_);
+  return p.moves_b ? graph_.support_across(*p.pair, T_a, motion * T_b, taught_by_others_, p.alike)
+                   : graph_.support_across(*p.pair, motion * T_a, T_b, taught_by_others_, p.alike);
 }
 
 bool PairsAcross::may_agree(const Hypothesis& h, const Eigen::Isometry3d& motion, const Eigen::Isometry3d& back) const {

@@ -2,97 +2,147 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <utility>
+#include <numeric>
+#include <queue>
 
 #include "tcm_icp/core/statistics.hpp"
-#include "tcm_icp/visibility/free_space.hpp"
 
 namespace tcm_icp {
 namespace {
 
-// Points a side has to have looked at for its share to mean anything.
-constexpr double kEnoughPoints = 500;
+constexpr double kEnoughPoints = 500;  // have to be looked at for a share to mean anything
+constexpr double kUsualShare = 0.002;  // of violations, that right poses have where nothing moves
 // Of what pairs of right poses see through, standard deviation of the logarithm: one pair proves little.
 constexpr double kScatter = 0.6;
 constexpr double kUsualQuantile = 0.1;  // of ten storeys that are laid on one another a tenth of all pairs is right
 constexpr double kTwinRatio = 4;        // by which twins see through one another more
 
-double share(double violations, double points) { return std::max(violations / points, kUsualViolations); }
+// Two parts that may be joined, as they were.
+struct Joint {
+  double promise;
+  std::size_t into, from;
+  double pairs;  // between them: with every join either has more
+
+  // Of two that promise the same the earlier parts go first: no accident decides.
+  bool operator<(const Joint& other) const {
+    if (promise != other.promise) return promise < other.promise;
+    return into != other.into ? into > other.into : from > other.from;
+  }
+};
 
 }  // namespace
 
-SeenThrough::SeenThrough(const PairGraph& graph, const Component& component) : component_(component) {
+SeenThrough::Looked& SeenThrough::Looked::operator+=(const Looked& other) {
+  pairs += other.pairs;
+  points += other.points;
+  violations += other.violations;
+  return *this;
+}
+
+double SeenThrough::share(const Looked& looked) { return std::max(looked.violations / looked.points, kUsualShare); }
+
+SeenThrough::SeenThrough(const PairGraph& graph, const Component& component)
+    : component_(component),
+      log_alike_(graph.options().log_alike),
+      part_(component.T_reference_scan.size()),
+      within_(part_.size()),
+      between_(part_.size()) {
+  std::iota(part_.begin(), part_.end(), std::size_t{0});
+  std::vector<double> shares;
   for (const std::size_t k : graph.measured_pairs()) {
     const ComparedPair& pair = graph.pairs()[k];
     if (!component.has(pair.a) || !component.has(pair.b)) continue;
     const PoseHypothesis* there =
         graph.measured_at(pair, *component.T_reference_scan[pair.a], *component.T_reference_scan[pair.b]);
-    if (there != nullptr) pairs_.push_back({pair.a, pair.b, there->points_seen, there->points_through});
+    if (there == nullptr) continue;
+    const Looked looked{1, there->points_seen, there->points_through};
+    between_[pair.a][pair.b] += looked;
+    between_[pair.b][pair.a] += looked;
+    if (looked.points >= kEnoughPoints) shares.push_back(share(looked));
+  }
+  if (shares.empty()) return;
+  usual_ = {1, kEnoughPoints, kEnoughPoints * quantile(shares, kUsualQuantile)};
+  join_parts();
+}
+
+void SeenThrough::join_parts() {
+  std::priority_queue<Joint> open;
+  const auto consider = [&](std::size_t part) {
+    for (const auto& [other, looked] : between_[part]) {
+      open.push({promise(looked), std::min(part, other), std::max(part, other), looked.pairs});
+    }
+  };
+  for (std::size_t part = 0; part < part_.size(); ++part) consider(part);
+  while (!open.empty()) {
+    const Joint joint = open.top();
+    open.pop();
+    const auto between = between_[joint.into].find(joint.from);
+    if (between == between_[joint.into].end() || between->second.pairs != joint.pairs) continue;
+    if (between->second.points < kEnoughPoints) continue;
+    if (excess(joint.into, joint.from, between->second) >= kUsualExcess) continue;  // until a part has grown
+    join(joint.into, joint.from);
+    consider(joint.into);
   }
 }
 
-double SeenThrough::excess(const std::vector<bool>& moved) const {
-  struct {
-    double points = 0, violations = 0, pairs = 0;
-  } across, within[2];
-  for (const Pair& p : pairs_) {
-    auto& sum = moved[p.a] != moved[p.b] ? across : within[moved[p.a] ? 1 : 0];
-    sum.points += p.points;
-    sum.violations += p.violations;
-    ++sum.pairs;
-  }
+double SeenThrough::promise(const Looked& between) const {
+  return between.points * share(usual_) * (kTwinRatio - 1) - std::log(kTwinRatio) * between.violations;
+}
+
+double SeenThrough::excess(std::size_t part, std::size_t other, const Looked& between) const {
+  if (between.points < kEnoughPoints) return 0;
   double excess = 0;
-  for (const auto& side : within) {
-    if (side.points < kEnoughPoints || across.points < kEnoughPoints) return 0;
-    excess = std::max(excess, std::log(share(across.violations, across.points) / share(side.violations, side.points)) -
-                                  kScatter * std::sqrt(1 / side.pairs + 1 / across.pairs));
+  for (const std::size_t side : {part, other}) {
+    const Looked& within = within_[side].points < kEnoughPoints ? usual_ : within_[side];
+    const double variance = kScatter * kScatter * (1 / between.pairs + 1 / within.pairs) +
+                            1 / (between.points * share(between)) + 1 / (within.points * share(within));
+    excess = std::max(excess, std::log(share(between) / share(within)) - std::sqrt(variance));
   }
   return excess;
 }
 
-std::vector<std::vector<std::size_t>> SeenThrough::parts(double least) const {
-  std::vector<double> shares;
-  for (const Pair& p : pairs_) {
-    if (p.points >= kEnoughPoints) shares.push_back(share(p.violations, p.points));
+void SeenThrough::join(std::size_t into, std::size_t from) {
+  within_[into] += within_[from];
+  within_[into] += between_[into][from];
+  between_[into].erase(from);
+  between_[from].erase(into);
+  for (const auto& [other, looked] : between_[from]) {
+    between_[into][other] += looked;
+    between_[other].erase(from);
+    between_[other][into] = between_[into][other];
   }
-  if (shares.empty()) return {};
-  const double usual = quantile(shares, kUsualQuantile);
-  const std::size_t num_scans = component_.T_reference_scan.size(), size = component_.size();
-  std::vector<std::vector<std::size_t>> members(num_scans), out;
-  for (std::size_t i = 0; i < num_scans; ++i) members[i] = {i};
-  // Between parts: logarithm of how much likelier it is to see through as much as usual than through four times as
-  // much.
-  std::map<std::pair<std::size_t, std::size_t>, double> between;
-  for (const Pair& p : pairs_) {
-    between[{p.a, p.b}] += p.points * usual * (kTwinRatio - 1) - std::log(kTwinRatio) * p.violations;
+  between_[from].clear();
+  std::replace(part_.begin(), part_.end(), from, into);
+}
+
+double SeenThrough::excess(std::size_t a, std::size_t b) const { return excess_of_parts(part_[a], part_[b]); }
+
+double SeenThrough::excess_of_parts(std::size_t part, std::size_t other) const {
+  if (within_[part].points < kEnoughPoints || within_[other].points < kEnoughPoints) return 0;
+  const auto found = between_[part].find(other);
+  return found == between_[part].end() ? 0 : excess(part, other, found->second);
+}
+
+bool SeenThrough::is_seen_through(std::size_t part) const {
+  return std::any_of(between_[part].begin(), between_[part].end(),
+                     [&](const auto& other) { return excess_of_parts(part, other.first) >= kUsualExcess; });
+}
+
+double SeenThrough::less_said(std::size_t a, std::size_t b) const {
+  return log_alike_ * std::clamp((excess(a, b) - kUsualExcess) / (kTwinExcess - kUsualExcess), 0.0, 1.0);
+}
+
+std::vector<std::vector<std::size_t>> SeenThrough::parts() const {
+  const std::size_t of_reference = part_[component_.reference];
+  std::map<std::size_t, std::vector<std::size_t>> parts;
+  for (const std::size_t i : component_.members()) {
+    if (part_[i] == of_reference) continue;
+    parts[part_[i]].push_back(i);
+    parts[of_reference].push_back(i);
   }
-  while (!between.empty()) {
-    const auto best = std::max_element(between.begin(), between.end(),
-                                       [](const auto& x, const auto& y) { return x.second < y.second; });
-    const auto [into, from] = best->first;
-    members[into].insert(members[into].end(), members[from].begin(), members[from].end());
-    between.erase(best);
-    for (auto it = between.begin(); it != between.end();) {
-      const auto [a, b] = it->first;
-      if (a != from && b != from) {
-        ++it;
-        continue;
-      }
-      const std::size_t other = a == from ? b : a;
-      between[std::minmax(into, other)] += it->second;
-      it = between.erase(it);
-    }
-    if (members[into].size() == size) break;
-    std::vector<bool> moved(num_scans, false);
-    for (const std::size_t i : members[into]) moved[i] = true;
-    if (excess(moved) < least) continue;
-    if (moved[component_.reference]) moved.flip();
-    std::vector<std::size_t> part;
-    for (const std::size_t i : component_.members()) {
-      if (moved[i]) part.push_back(i);
-    }
-    out.push_back(std::move(part));
+  std::vector<std::vector<std::size_t>> out;
+  for (auto& [part, scans] : parts) {
+    if (is_seen_through(part)) out.push_back(std::move(scans));
   }
   return out;
 }

@@ -1,43 +1,62 @@
 #pragma once
-// What a part of a component and the rest of it see through one another, by what either sees through of its own.
+// Parts of a component that see through one another more than they see through their own: storeys that are alike.
 
 #include <cstddef>
+#include <map>
 #include <vector>
 
 #include "inference/compared_pairs.hpp"
 
 namespace tcm_icp {
 
-/// Up to where right cuts have it, too, because one part of a set differs from the other (19 in 20 between parts of
-/// several scans), and from where on hardly any has (docs/decisions/0013).
-constexpr double kUsualExcess = 0.5, kTwinExcess = 1;
+/// Up to where right parts have it, too, because one half of a set differs from the other (19 of 20), and from where on
+/// hardly any have (1 of 200; docs/decisions/0013).
+constexpr double kUsualExcess = 0.6, kTwinExcess = 1;
 
 /// Storeys that look alike agree where they are laid on one another, but each sees through what stands only in the
-/// other. So do scans with people about, but all their pairs alike, within a part and across.
+/// other. So do scans with people about, but all their pairs alike. Scans and parts are joined one after another, those
+/// first that are likeliest to see through one another no more than is usual, as long as the excess between two parts
+/// is usual.
 class SeenThrough {
  public:
-  /// Pairs of the component that were measured at these very poses. Cost: the pairs that were measured anywhere.
+  /// By the pairs of the component that were measured at these very poses.
+  /// Cost: the pairs that were measured anywhere, and for each member the parts about it.
   SeenThrough(const PairGraph& graph, const Component& component);
 
-  /// Logarithm of how many times as much is seen through across a cut as within the side that sees through less, less a
-  /// standard error; at least 0. Shares that right poses have are one. 0 unless both sides have looked at enough of
-  /// their own: a scan by itself may as well have people about it. Cost: the pairs.
-  /// @param moved  of every scan, whether it is of the part
-  double excess(const std::vector<bool>& moved) const;
+  /// Logarithm of how many times as much is seen through between the parts of two scans as within the one that sees
+  /// through less, less a standard error; shares that right poses have are one. 0 within a part, where too few points
+  /// were looked at, and where either has no pairs of its own: a scan by itself may as well have people about it.
+  double excess(std::size_t a, std::size_t b) const;
 
-  /// Parts, ascending and without the reference, across whose cut the excess is `least` or more, of those that come
-  /// about where scans and parts are joined one after another, the ones first that are likeliest to see through one
-  /// another no more than is usual. Some may be named twice. Cost: members times pairs.
-  std::vector<std::vector<std::size_t>> parts(double least) const;
+  /// By how much less the agreement of two scans says against twins: log_alike from kTwinExcess on, nothing up to
+  /// kUsualExcess.
+  double less_said(std::size_t a, std::size_t b) const;
+
+  /// Of the parts that others see through more than is usual each, or all that is not of it where it has the reference;
+  /// ascending. Some may be named twice.
+  std::vector<std::vector<std::size_t>> parts() const;
 
  private:
-  struct Pair {
-    std::size_t a, b;
-    double points, violations;
+  struct Looked {
+    double pairs = 0, points = 0, violations = 0;
+    Looked& operator+=(const Looked& other);
   };
 
+  static double share(const Looked& looked);
+  double excess(std::size_t part, std::size_t other, const Looked& between) const;
+  double excess_of_parts(std::size_t part, std::size_t other) const;
+  bool is_seen_through(std::size_t part) const;
+  // How much likelier it is to see through as much as is usual than through a few times as much.
+  double promise(const Looked& between) const;
+  void join_parts();
+  void join(std::size_t into, std::size_t from);
+
   const Component& component_;
-  std::vector<Pair> pairs_;
+  const double log_alike_;
+  std::vector<std::size_t> part_;                       // of every scan; a part is named by one of its scans
+  std::vector<Looked> within_;                          // of every part
+  std::vector<std::map<std::size_t, Looked>> between_;  // of every part, and each other one
+  Looked usual_;                                        // stands for a part that has no pairs of its own
 };
 
 }  // namespace tcm_icp
