@@ -63,12 +63,17 @@ void append(Points& path, const Points& part, double up_m) {
   for (const Vector3d& p : part) path.emplace_back(p.x(), p.y(), p.z() + up_m);
 }
 
-/// From the stairs to a corridor's room and, but on the last storey, back to them.
+/// From the stairs to a corridor's rooms and, but on the last storey, back to them by the shortest way.
 void add_storey_path(Points& path, const Points& room_to_end, int storey, const StairHall& hall) {
   const double floor = storey * hall.storey_m;
   if (storey > 0) append(path, Points(room_to_end.rbegin(), room_to_end.rend()), floor);
   if (storey + 1 == hall.storeys) return;
-  append(path, storey == 0 ? room_to_end : Points{room_to_end.end() - 1, room_to_end.end()}, floor);
+  if (storey == 0) {
+    append(path, room_to_end, floor);
+  } else {
+    append(path, {room_to_end.begin() + 1, room_to_end.begin() + 3}, floor);  // out of the last room
+    append(path, {room_to_end.end() - 1, room_to_end.end()}, floor);
+  }
   append(path, hall.stairs().path(floor), 0);
 }
 
