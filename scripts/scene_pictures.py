@@ -31,7 +31,7 @@ from ply import read_points
 
 # (scene, sensor): the sensor of the scene, and one scene seen by another.
 SCENES = [("town", None), ("block", None), ("street", None), ("urban", None), ("canopy", None), ("interior", None),
-          ("plaza", None), ("bays", None), ("canopy", "aerial")]
+          ("plaza", None), ("bays", None), ("storeys", None), ("canopy", "aerial")]
 
 
 def load(folder):
@@ -103,7 +103,7 @@ def draw(folder, png, whole=None):
     fig, (upper, lower) = plt.subplots(2, 1, figsize=(9, 8.5), facecolor="white", height_ratios=[1, 2.2])
     (draw_strip if aerial else draw_ranges)(upper, *seen[len(scans) // 2], options)
     # From above one would see an interior's ceiling.
-    draw_from_above(lower, scans, 0.6 if truth["scene"] in ("interior", "bays") else np.inf)
+    draw_from_above(lower, scans, 0.6 if truth["scene"] in ("interior", "bays", "storeys") else np.inf)
     upper.set_title(f"{truth['scene']}, {options.get('sensor', 'terrestrial')} sensor: scan {len(scans) // 2}, "
                     f"{len(scans[len(scans) // 2][0]):,} points; {len(scans)} scans from above", fontsize=9)
     for ax in (upper, lower):

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kEnoughPoints = 500;  // have to be looked at for a share to mean anything
 constexpr double kUsualShare = 0.002;  // of violations, that right poses have where nothing moves
-// Of what pairs of right poses see through, standard deviation of the logarithm: one pair proves little.
+// Of the logarithm of what right scans see through, standard deviation: people about one tell in all its pairs.
 constexpr double kScatter = 0.6;
 constexpr double kUsualQuantile = 0.1;  // of ten storeys that are laid on one another a tenth of all pairs is right
 constexpr double kTwinRatio = 4;        // by which twins see through one another more
@@ -45,6 +45,7 @@ SeenThrough::SeenThrough(const PairGraph& graph, const Component& component)
     : component_(component),
       log_alike_(graph.options().log_alike),
       part_(component.T_reference_scan.size()),
+      size_(part_.size(), 1),
       within_(part_.size()),
       between_(part_.size()) {
   std::iota(part_.begin(), part_.end(), std::size_t{0});
@@ -61,7 +62,8 @@ SeenThrough::SeenThrough(const PairGraph& graph, const Component& component)
     if (looked.points >= kEnoughPoints) shares.push_back(share(looked));
   }
   if (shares.empty()) return;
-  usual_ = {1, kEnoughPoints, kEnoughPoints * quantile(shares, kUsualQuantile)};
+  usual_.points = kEnoughPoints;
+  usual_.violations = kEnoughPoints * quantile(shares, kUsualQuantile);
   join_parts();
 }
 
@@ -79,7 +81,7 @@ void SeenThrough::join_parts() {
     const auto between = between_[joint.into].find(joint.from);
     if (between == between_[joint.into].end() || between->second.pairs != joint.pairs) continue;
     if (between->second.points < kEnoughPoints) continue;
-    if (excess(joint.into, joint.from, between->second) >= kUsualExcess) continue;  // until a part has grown
+    if (excess_of_parts(joint.into, joint.from) >= kUsualExcess) continue;  // until a part has grown
     join(joint.into, joint.from);
     consider(joint.into);
   }
@@ -89,19 +91,22 @@ double SeenThrough::promise(const Looked& between) const {
   return between.points * share(usual_) * (kTwinRatio - 1) - std::log(kTwinRatio) * between.violations;
 }
 
-double SeenThrough::excess(std::size_t part, std::size_t other, const Looked& between) const {
-  if (between.points < kEnoughPoints) return 0;
-  double excess = 0;
-  for (const std::size_t side : {part, other}) {
-    const Looked& within = within_[side].points < kEnoughPoints ? usual_ : within_[side];
-    const double variance = kScatter * kScatter * (1 / between.pairs + 1 / within.pairs) +
-                            1 / (between.points * share(between)) + 1 / (within.points * share(within));
-    excess = std::max(excess, std::log(share(between) / share(within)) - std::sqrt(variance));
-  }
-  return excess;
+double SeenThrough::excess_of_parts(std::size_t part, std::size_t other) const {
+  const auto found = between_[part].find(other);
+  if (found == between_[part].end() || found->second.points < kEnoughPoints) return 0;
+  const Looked& between = found->second;
+  const double of_scans = kScatter * kScatter * (1 / size_[part] + 1 / size_[other]);
+  const auto beyond = [&](const Looked& within) {
+    const double of_counts = 1 / (between.points * share(between)) + 1 / (within.points * share(within));
+    return std::max(0.0, std::log(share(between) / share(within)) - std::sqrt(of_scans + of_counts));
+  };
+  const bool has_one = within_[part].points >= kEnoughPoints, has_two = within_[other].points >= kEnoughPoints;
+  if (!has_one && !has_two) return beyond(usual_);
+  return std::max(has_one ? beyond(within_[part]) : 0, has_two ? beyond(within_[other]) : 0);
 }
 
 void SeenThrough::join(std::size_t into, std::size_t from) {
+  size_[into] += size_[from];
   within_[into] += within_[from];
   within_[into] += between_[into][from];
   between_[into].erase(from);
@@ -116,12 +121,6 @@ void SeenThrough::join(std::size_t into, std::size_t from) {
 }
 
 double SeenThrough::excess(std::size_t a, std::size_t b) const { return excess_of_parts(part_[a], part_[b]); }
-
-double SeenThrough::excess_of_parts(std::size_t part, std::size_t other) const {
-  if (within_[part].points < kEnoughPoints || within_[other].points < kEnoughPoints) return 0;
-  const auto found = between_[part].find(other);
-  return found == between_[part].end() ? 0 : excess(part, other, found->second);
-}
 
 bool SeenThrough::is_seen_through(std::size_t part) const {
   return std::any_of(between_[part].begin(), between_[part].end(),

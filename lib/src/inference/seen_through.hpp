@@ -24,8 +24,8 @@ class SeenThrough {
   SeenThrough(const PairGraph& graph, const Component& component);
 
   /// Logarithm of how many times as much is seen through between the parts of two scans as within the one that sees
-  /// through less, less a standard error; shares that right poses have are one. 0 within a part, where too few points
-  /// were looked at, and where either has no pairs of its own: a scan by itself may as well have people about it.
+  /// through less, of those with pairs of their own, less a standard error; shares that right poses have are one. 0
+  /// within a part, and where too few points were looked at.
   double excess(std::size_t a, std::size_t b) const;
 
   /// By how much less the agreement of two scans says against twins: log_alike from kTwinExcess on, nothing up to
@@ -43,7 +43,6 @@ class SeenThrough {
   };
 
   static double share(const Looked& looked);
-  double excess(std::size_t part, std::size_t other, const Looked& between) const;
   double excess_of_parts(std::size_t part, std::size_t other) const;
   bool is_seen_through(std::size_t part) const;
   // How much likelier it is to see through as much as is usual than through a few times as much.
@@ -54,9 +53,10 @@ class SeenThrough {
   const Component& component_;
   const double log_alike_;
   std::vector<std::size_t> part_;                       // of every scan; a part is named by one of its scans
+  std::vector<double> size_;                            // of every part: its scans
   std::vector<Looked> within_;                          // of every part
   std::vector<std::map<std::size_t, Looked>> between_;  // of every part, and each other one
-  Looked usual_;                                        // stands for a part that has no pairs of its own
+  Looked usual_;                                        // stands for two parts of which neither has pairs of its own
 };
 
 }  // namespace tcm_icp
