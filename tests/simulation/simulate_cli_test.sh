@@ -40,7 +40,7 @@ expect 1 'station_spacing_m' simulate --out "$folder/c" --scene street --spacing
 expect 0 "001.ply" simulate --out "$folder/air" --scene plaza --sensor aerial --strip-length 20 --line-spacing 2
 expect 0 "001.ply" simulate --out "$folder/lines" --scene urban --lines 16 --overlap 0.6
 expect 0 "001.ply" simulate --out "$folder/bays" --scene bays --clutter 2
-expect 0 "003.ply" simulate --out "$folder/storeys" --scene storeys --scans 4 --step 2
+expect 0 "001.ply" simulate --out "$folder/storeys" --scene storeys
 expect 1 "clutter" simulate --out "$folder/c" --scene bays --clutter -1
 expect 1 "sonar" simulate --out "$folder/c" --sensor sonar
 expect 1 "num_lines" simulate --out "$folder/c" --scene urban --lines 1
