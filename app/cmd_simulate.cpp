@@ -74,8 +74,7 @@ po::options_description describe(Request& r) {
       "scene", bind_option(&r.scene),
       "town, block (a closed loop), street (mobile), urban (moving platform), canopy (lake shore), interior, "
       "plaza, bays (a building that repeats itself), storeys (alike, with stairs) or town-grid (all streets of a "
-      "town); each has defaults of its "
-      "own")                                                                             //
+      "town); each has defaults of its own")                                             //
       ("scans", bind_option(&s.num_scans), "number of stations along the scene's path")  //
       ("spacing", bind_option(&s.station_spacing_m),
        "[m] between stations; those of town and plaza share out their path")  //
@@ -148,8 +147,7 @@ int cmd_simulate(const Arguments& arguments) {
   po::store(parse_arguments(arguments, description), given);
   if (given.count("help") > 0) {
     std::cout << "Usage: tcm-icp simulate --scene town|block|street|urban|canopy|interior|plaza|bays|storeys|town-grid "
-                 "--scans N "
-                 "--out DIR [--seed N] ...\n"
+                 "--scans N --out DIR [--seed N] ...\n"
                  "LiDAR scans of a made-up scene, each in a frame of its own, with exact truth.\n\n"
               << description;
     return kSuccess;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "simulation/bay_plan.hpp"
+#include "simulation/scene_walk.hpp"
 #include "tcm_icp/core/error.hpp"
 #include "tcm_icp/simulation/ray_caster.hpp"
 #include "tcm_icp/simulation/scene.hpp"
@@ -14,8 +15,6 @@ namespace tcm_icp {
 namespace {
 
 using Eigen::Vector3d;
-
-constexpr double kEye_m = 1.5;
 
 Scene make(std::uint64_t seed, const BaysOptions& options = {}) {
   Rng rng = make_stream(seed, "test");
@@ -34,13 +33,6 @@ BaysOptions bare() {
   return options;
 }
 
-Vector3d random_direction(Rng& rng) {
-  const double z = 2 * uniform01(rng) - 1;
-  const double angle = 2 * M_PI * uniform01(rng);
-  const double r = std::sqrt(1 - z * z);
-  return {r * std::cos(angle), r * std::sin(angle), z};
-}
-
 /// Of rays from random places of bays behind the lifts, the share that meets the same after a shift. A range of one bay
 /// keeps the ends of the building and the lifts out of sight.
 double share_alike(const Scene& scene, const BayPlan& plan, const Vector3d& shift) {
@@ -52,10 +44,8 @@ double share_alike(const Scene& scene, const BayPlan& plan, const Vector3d& shif
     const double x = plan.bay_m * (plan.well + 3 + (plan.along - plan.well - 5) * uniform01(rng));
     const double y = plan.width_m() * uniform01(rng);
     const Vector3d from(x, y, 2.2 * uniform01(rng));
-    const Vector3d direction = random_direction(rng);
-    const auto here = caster.first_hit(from, direction, plan.bay_m);
-    const auto there = caster.first_hit(from + shift, direction, plan.bay_m);
-    alike += here.has_value() == there.has_value() && (!here || std::abs(here->range_m - there->range_m) < 1e-6);
+    const Vector3d direction = uniform_direction(rng);
+    alike += testing::sees_the_same(caster, from, shift, direction, plan.bay_m);
   }
   return static_cast<double>(alike) / kRays;
 }
@@ -106,30 +96,14 @@ TEST(BaysScene, LeavesRoomToStandAnywhereAlongThePath) {
     options.clutter = 3;
     options.path_length_m = options.storeys == 1 ? 80 : 180;
     const Scene scene = make(seed, options);
-    const RayCaster caster(scene.mesh);
-    for (double s = 0; s < path_length_m(scene.path); s += 0.7) {
-      const PathPoint at = along_path(scene.path, s);
-      const Vector3d left(-std::sin(at.heading_rad), std::cos(at.heading_rad), 0);
-      for (const double share : {-1.0, 0.0, 1.0}) {
-        const Vector3d eye = at.position + share * scene.free_half_width_m * left + Vector3d(0, 0, kEye_m);
-        EXPECT_GT(caster.distance_m(eye), 0.3) << "seed " << seed << ", " << s << " m";
-        const auto ground = caster.first_hit(eye, -Vector3d::UnitZ(), 10);
-        ASSERT_TRUE(ground);
-        EXPECT_NEAR(ground->range_m, kEye_m, 0.1) << "seed " << seed << ", " << s << " m";  // half a step of stairs
-      }
-    }
+    testing::expect_room_to_stand(scene, 0.3, seed);
   }
 }
 
 TEST(BaysScene, IsClosed) {
   for (std::uint64_t seed = 0; seed < 4; ++seed) {
     const Scene scene = make(seed);
-    const RayCaster caster(scene.mesh);
-    Rng rng = make_stream(seed, "rays");
-    for (double s = 0; s < path_length_m(scene.path); s += 3) {
-      const Vector3d eye = along_path(scene.path, s).position + Vector3d(0, 0, kEye_m);
-      for (int i = 0; i < 300; ++i) EXPECT_TRUE(caster.first_hit(eye, random_direction(rng), 300)) << "seed " << seed;
-    }
+    testing::expect_closed(scene, seed);
   }
 }
 

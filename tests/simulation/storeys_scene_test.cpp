@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "simulation/scene_walk.hpp"
 #include "tcm_icp/core/error.hpp"
 #include "tcm_icp/simulation/ray_caster.hpp"
 #include "tcm_icp/simulation/scene.hpp"
@@ -15,7 +16,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kEye_m = 1.5;
+using testing::kEye_m;
 
 Scene make(std::uint64_t seed, const StoreysOptions& options = {}) {
   Rng rng = make_stream(seed, "test");
@@ -28,11 +29,6 @@ double top_of_path_m(const Scene& scene) {
   return top;
 }
 
-Vector3d random_direction(Rng& rng) {
-  const double z = 2 * uniform01(rng) - 1, angle = 2 * M_PI * uniform01(rng), r = std::sqrt(1 - z * z);
-  return {r * std::cos(angle), r * std::sin(angle), z};
-}
-
 /// Of rays from places on the ground floor's path, the share that meets the same from `shift` farther.
 double share_alike(const Scene& scene, const Vector3d& shift) {
   constexpr int kRays = 3000;
@@ -42,9 +38,8 @@ double share_alike(const Scene& scene, const Vector3d& shift) {
   for (int i = 0; i < kRays; ++i) {
     // In the corridor, where stairs are far.
     const Vector3d from(1 + 7 * uniform01(rng), uniform01(rng) - 0.5, kEye_m);
-    const Vector3d direction = random_direction(rng);
-    const auto here = caster.first_hit(from, direction, 30), there = caster.first_hit(from + shift, direction, 30);
-    alike += here.has_value() == there.has_value() && (!here || std::abs(here->range_m - there->range_m) < 1e-6);
+    const Vector3d direction = uniform_direction(rng);
+    alike += testing::sees_the_same(caster, from, shift, direction, 30);
   }
   return static_cast<double>(alike) / kRays;
 }
@@ -79,18 +74,7 @@ TEST(StoreysScene, LeavesRoomToStandAnywhereAlongThePath) {
     options.storeys = 2 + static_cast<int>(seed % 3);
     options.length_m = 12 + 4.0 * static_cast<double>(seed);
     const Scene scene = make(seed, options);
-    const RayCaster caster(scene.mesh);
-    for (double s = 0; s < path_length_m(scene.path); s += 0.7) {
-      const PathPoint at = along_path(scene.path, s);
-      const Vector3d left(-std::sin(at.heading_rad), std::cos(at.heading_rad), 0);
-      for (const double share : {-1.0, 0.0, 1.0}) {
-        const Vector3d eye = at.position + share * scene.free_half_width_m * left + Vector3d(0, 0, kEye_m);
-        EXPECT_GT(caster.distance_m(eye), 0.1) << "seed " << seed << ", " << s << " m";
-        const auto ground = caster.first_hit(eye, -Vector3d::UnitZ(), 10);
-        ASSERT_TRUE(ground);
-        EXPECT_NEAR(ground->range_m, kEye_m, 0.1) << "seed " << seed << ", " << s << " m";  // half a step of stairs
-      }
-    }
+    testing::expect_room_to_stand(scene, 0.1, seed);
   }
 }
 
@@ -98,11 +82,7 @@ TEST(StoreysScene, IsClosedAndOneStoreySeesNoOther) {
   for (std::uint64_t seed = 0; seed < 4; ++seed) {
     const Scene scene = make(seed);
     const RayCaster caster(scene.mesh);
-    Rng rng = make_stream(seed, "rays");
-    for (double s = 0; s < path_length_m(scene.path); s += 3) {
-      const Vector3d eye = along_path(scene.path, s).position + Vector3d(0, 0, kEye_m);
-      for (int i = 0; i < 300; ++i) EXPECT_TRUE(caster.first_hit(eye, random_direction(rng), 300)) << "seed " << seed;
-    }
+    testing::expect_closed(scene, seed);
     const double storey_m = top_of_path_m(scene) / 2;
     for (double x = 0.5; x < 9; x += 0.5) {
       const auto ceiling = caster.first_hit({x, 0.5, kEye_m}, Vector3d::UnitZ(), 300);

@@ -11,9 +11,10 @@ namespace tcm_icp {
 /// Two flights side by side in an opening of the floors: up along x to a landing half way, and back.
 class Stairs {
  public:
-  static constexpr double kWidth_m = 3.1;  ///< of both flights: an opening is no narrower
-
   Stairs(const Eigen::AlignedBox2d& opening, double storey_m);
+
+  /// Of both flights: what an opening needs along y.
+  static constexpr double width_m() { return 2 * (kFlightMiddle_m + kHalfFlight_m); }
 
   /// What an opening needs along x.
   static double length_m(double storey_m);

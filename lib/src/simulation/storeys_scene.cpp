@@ -23,7 +23,7 @@ constexpr double kBeforeStairs_m = 1.5;  ///< from the corridor's end to the fir
 struct StairHall {
   double begin_m, storey_m;  ///< where the corridors end along x; from floor to floor
   int storeys;
-  double half_width_m = Stairs::kWidth_m / 2 + 0.1;
+  double half_width_m = Stairs::width_m() / 2 + 0.1;
 
   AlignedBox2d opening() const {
     const double x = begin_m + kBeforeStairs_m;
