@@ -18,8 +18,8 @@ constexpr double kMostRatio = 10;       // of two measurements that are compared
 constexpr std::size_t kFewAcross = 30;  // points: with fewer a share is chance
 constexpr std::size_t kFewMatches = 100;
 constexpr std::size_t kFewSlid = 30;  // the ratio of shares has its own allowance for chance
-// Opposite sides that noise and thin things make at right poses, of which more begins to tell.
-constexpr double kUsualOpposed = 0.03;
+// Violations and opposite sides that noise and thin things make at right poses, of which more begins to tell.
+constexpr double kUsualViolations = 0.004, kUsualOpposed = 0.03;
 
 inline double log_share(double share) { return std::log(std::max(share, kLeastShare)); }
 

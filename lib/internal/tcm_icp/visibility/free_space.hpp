@@ -9,9 +9,6 @@
 
 namespace tcm_icp {
 
-/// Share of violations that noise and thin things make at right poses, of which more begins to tell.
-inline constexpr double kUsualViolations = 0.004;
-
 /// What speaks against a pose. That nothing does, or that a scan has no viewpoint, speaks for none.
 struct FreeSpaceEvidence {
   std::size_t num_points = 0;     ///< smooth points of one scan at surfaces the other saw, or before them
