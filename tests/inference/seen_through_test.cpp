@@ -13,7 +13,7 @@ namespace {
 
 using testing::HypothesisWorld;
 
-constexpr double kPoints = 2000;
+constexpr std::size_t kPoints = 2000;
 
 using Scans = std::vector<std::size_t>;
 
@@ -22,14 +22,23 @@ class SeenThroughTest : public ::testing::Test {
  protected:
   static std::size_t storey(std::size_t scan) { return scan / 3; }
 
-  void add(std::size_t a, std::size_t b, double share, double points = kPoints, double log_odds = 0.5) {
+  static LookedAt seen(double share, std::size_t points) {
+    return {points, static_cast<std::size_t>(std::lround(share * static_cast<double>(points)))};
+  }
+  // Of either's points the other looks at as many, and sees through as large a share.
+  void add(std::size_t a, std::size_t b, double share, std::size_t points = kPoints, double log_odds = 0.5) {
+    add_ways(a, b, seen(share, points), seen(share, points), 1, log_odds);
+  }
+  void add_ways(std::size_t a, std::size_t b, const LookedAt& of_a, const LookedAt& of_b, double overlap = 1,
+                double log_odds = 0.5) {
     PoseHypothesis there = world_.hypothesis(a, b, log_odds);
     there.implied = there.is_there = true;
-    there.points_seen = points;
-    there.points_through = share * points;
+    there.overlap = overlap;
+    there.of_a = of_a;
+    there.of_b = of_b;
     world_.add(a, b, {there});
   }
-  void add_storeys(double within, double across, double points = kPoints) {
+  void add_storeys(double within, double across, std::size_t points = kPoints) {
     for (std::size_t a = 0; a < 9; ++a) {
       for (std::size_t b = a + 1; b < 9; ++b) add(a, b, storey(a) == storey(b) ? within : across, points);
     }
@@ -46,14 +55,14 @@ TEST_F(SeenThroughTest, AStoreySeesThroughTheOthersMoreThanThroughItself) {
   add_storeys(0.01, 0.05);
   const Scans one{3, 4, 5}, other{6, 7, 8}, both{3, 4, 5, 6, 7, 8};
   EXPECT_EQ(parts(), (std::vector<Scans>{both, one, other})) << "the reference stays";
-  // Three scans each; 60 points violate within, 900 across.
-  EXPECT_NEAR(excess(3, 6), std::log(5) - std::sqrt(0.36 * 2 / 3.0 + 1 / 60.0 + 1 / 900.0), 1e-12);
+  // Three scans each; 120 points violate within, 900 of either storey's across.
+  EXPECT_NEAR(excess(3, 6), std::log(5) - std::sqrt(0.16 * 2 / 3.0 + 1 / 120.0 + 1 / 900.0), 1e-12);
   EXPECT_EQ(excess(7, 4), excess(3, 6));
   EXPECT_EQ(excess(3, 4), 0) << "of one storey";
 }
 
 TEST_F(SeenThroughTest, WhatRightPosesShowIsNoExcess) {
-  add_storeys(0.0001, 0.002);
+  add_storeys(0, 0.0015);
   EXPECT_TRUE(parts().empty());
   EXPECT_EQ(excess(3, 6), 0);
 }
@@ -68,12 +77,37 @@ TEST_F(SeenThroughTest, ASceneWherePeopleWalkHasNone) {
   EXPECT_TRUE(parts().empty());
 }
 
-TEST_F(SeenThroughTest, AScanWithPeopleAboutItHasNone) {
+// All see through the people, who see through nobody.
+TEST_F(SeenThroughTest, ScansWithPeopleAboutThemHaveNone) {
+  for (const Scans& with_people : {Scans{4}, Scans{3, 4, 5}, Scans{1, 4, 6}}) {
+    world_ = HypothesisWorld(9, rng_);
+    const auto share = [&](std::size_t scan) {
+      return std::find(with_people.begin(), with_people.end(), scan) == with_people.end() ? 0.002 : 0.05;
+    };
+    for (std::size_t a = 0; a < 9; ++a) {
+      for (std::size_t b = a + 1; b < 9; ++b) add_ways(a, b, seen(share(a), kPoints), seen(share(b), kPoints));
+    }
+    EXPECT_TRUE(parts().empty());
+    EXPECT_EQ(excess(0, 4), 0);
+  }
+}
+
+TEST_F(SeenThroughTest, WhatOneAloneLooksAtSaysNothing) {
   for (std::size_t a = 0; a < 9; ++a) {
-    for (std::size_t b = a + 1; b < 9; ++b) add(a, b, a == 4 || b == 4 ? 0.03 : 0.01);
+    for (std::size_t b = a + 1; b < 9; ++b) add_ways(a, b, seen(storey(a) == storey(b) ? 0 : 0.05, kPoints), {});
   }
   EXPECT_TRUE(parts().empty());
-  EXPECT_EQ(excess(0, 4), 0);
+}
+
+// Along a street with people everywhere neighbours see them, scans two apart see none: every other scan is no part.
+TEST_F(SeenThroughTest, WhatOverlapsLittleMakesNoParts) {
+  for (std::size_t a = 0; a < 9; ++a) {
+    for (std::size_t b = a + 1; b < 9 && b < a + 3; ++b) {
+      const LookedAt looked = b == a + 1 ? seen(0.015, kPoints) : seen(0, 600);
+      add_ways(a, b, looked, looked, b == a + 1 ? 0.6 : 0.15);
+    }
+  }
+  EXPECT_TRUE(parts().empty());
 }
 
 TEST_F(SeenThroughTest, FewPointsSayNothing) {

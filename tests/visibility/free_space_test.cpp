@@ -63,6 +63,23 @@ TEST(FreeSpace, ARoomWithinAnotherIsSeenThrough) {
   EXPECT_GT(e.excess(), 1);
 }
 
+TEST(FreeSpace, WhatStandsInOneScanIsSeenThroughByTheOther) {
+  testing::BoxRoom furnished = kLeft;
+  furnished.boxes.emplace_back(Vector3d(2.5, 1.5, 0), Vector3d(3.5, 2.5, 1));
+  const Seen a(kLeft, {1, 2, 1.5}), b(furnished, {5, 2, 1.5});
+  const FreeSpaceEvidence e = measure_violations(a, b, Isometry3d::Identity());
+  const FreeSpaceEvidence back = measure_violations(b, a, Isometry3d::Identity());
+  EXPECT_GT(e.num_violating_of_b, 50u);
+  EXPECT_EQ(e.num_violating, e.num_violating_of_b);
+  EXPECT_EQ(back.num_violating, e.num_violating);
+  EXPECT_EQ(back.num_violating_of_b, 0u);
+  EXPECT_EQ(back.num_points_of_b, e.num_points - e.num_points_of_b);
+  FreeSpaceEvidence sum = e;
+  sum += back;
+  EXPECT_EQ(sum.num_points_of_b, e.num_points);
+  EXPECT_EQ(sum.num_violating_of_b, e.num_violating);
+}
+
 TEST(FreeSpace, ViolationsAreTheSameWithoutTheMatches) {
   const Seen a(kLeft, {3, 2, 1.5}), b(kRight, {7.5, 2, 1.5});
   const Isometry3d T_a_b(Translation3d(-4.5, 0, 0));

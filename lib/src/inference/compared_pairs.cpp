@@ -51,7 +51,7 @@ PairGraph::PairGraph(std::vector<ComparedPair> pairs, std::vector<PointMoments> 
       h.telling = h.is_there ? Telling{std::exp(options_.log_missed_there), 1} : telling(h.overlap);
       if (h.implied && !h.is_there) h.slid = slid(h.weakest_left);
       const Telling found = h.as_found(0);
-      const double odds = odds_found(h, 0);
+      const double odds = odds_found(h.log_odds, h.implied, 0);
       h.most_support = h.slid > 0 ? std::log1p(found.shows * odds) : found.says(odds);
     }
   }
@@ -111,7 +111,7 @@ Agreement PairGraph::agreement(const ComparedPair& pair, const Eigen::Isometry3d
   Agreement best;
   for_agreeing(pair, T_a, T_b, [&](const PoseHypothesis& h, double beyond_m, double farther) {
     const Telling found = h.as_found(farther);
-    const double odds = odds_found(h, farther), says = found.says(odds);
+    const double odds = odds_found(h.log_odds, h.implied, farther), says = found.says(odds);
     if (best.hypothesis != nullptr && says <= best.support) return;
     const double shown = found.shows * odds;
     best = {says, &h, shown / (found.missed + shown) * options_.log_spread / (beyond_m * beyond_m)};
@@ -124,10 +124,9 @@ SupportAcross PairGraph::support_across(const ComparedPair& pair, const Eigen::I
   std::optional<SupportAcross> most;
   const double less = alike > 0 && measured_at(pair, T_a, T_b) != nullptr ? alike : 0;
   for_agreeing(pair, T_a, T_b, [&](const PoseHypothesis& h, double, double farther) {
-    const double says = h.as_found(farther).says(odds_found(h, farther));
-    const double log_odds = std::min(h.log_odds - std::max(0.0, h.taught - taught_by_others), options_.most_log_odds);
-    const double chance = options_.log_poses - options_.log_implied - options_.log_spread * farther - less;
-    const double says_of_twins = h.as_implied(farther).says(std::exp(log_odds + chance));
+    const double says = h.as_found(farther).says(odds_found(h.log_odds, h.implied, farther));
+    const double log_odds = h.log_odds - std::max(0.0, h.taught - taught_by_others);
+    const double says_of_twins = h.as_implied(farther).says(odds_found(log_odds, true, farther) * std::exp(-less));
     if (!most) most = {says, says_of_twins};
     most = {std::max(most->support, says), std::max(most->against_twins, says_of_twins)};
   });
@@ -151,9 +150,9 @@ double PairGraph::constant_without(const std::vector<std::size_t>& pairs) const 
   return set_constant(others, options_.set_spread);
 }
 
-double PairGraph::odds_found(const PoseHypothesis& h, double farther) const {
-  const double chance = options_.log_poses - (h.implied ? options_.log_implied : 0) - options_.log_spread * farther;
-  return std::exp(std::min(h.log_odds, options_.most_log_odds) + chance);
+double PairGraph::odds_found(double log_odds, bool implied, double farther) const {
+  const double chance = options_.log_poses - (implied ? options_.log_implied : 0) - options_.log_spread * farther;
+  return std::exp(std::min(log_odds, options_.most_log_odds) + chance);
 }
 
 Telling PairGraph::telling(double overlap) const {

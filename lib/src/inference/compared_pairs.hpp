@@ -26,6 +26,11 @@ struct Telling {
   double says(double odds) const { return std::log(missed + shows * odds); }
 };
 
+/// Points of a scan at surfaces that another saw, or before them; and of these, before them.
+struct LookedAt {
+  std::size_t points = 0, violations = 0;
+};
+
 /// One pose a pair may have.
 struct PoseHypothesis {
   Eigen::Isometry3d T_a_b = Eigen::Isometry3d::Identity();
@@ -39,8 +44,7 @@ struct PoseHypothesis {
   /// Implied, and measured at the very poses that others imply, where no fit of the pair has ended: what it shows
   /// there, for them or against them. It tells nothing of others.
   bool is_there = false;
-  double points_seen = 0;     ///< of a pair that was measured: points at surfaces the other saw, or before them
-  double points_through = 0;  ///< of these, before them
+  LookedAt of_a = {}, of_b = {};  ///< of a pair that was measured: points of either scan, looked at by the other
   // PairGraph's
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();  ///< of b's points, in a's frame
   Telling telling = {};                            ///< were it implied: the less, the less overlaps
@@ -179,8 +183,8 @@ class PairGraph {
   template <typename Visit>
   void for_agreeing(const ComparedPair& pair, const Eigen::Isometry3d& T_a, const Eigen::Isometry3d& T_b,
                     Visit visit) const;
-  // What it says for such poses, before what a search may have missed.
-  double odds_found(const PoseHypothesis& h, double farther) const;
+  // What a hypothesis says for such poses, before what a search may have missed.
+  double odds_found(double log_odds, bool implied, double farther) const;
   Telling telling(double overlap) const;
   double slid(double weakest_left) const;
   // Where the pair was measured there: at these very poses.

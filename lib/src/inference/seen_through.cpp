@@ -10,10 +10,11 @@
 namespace tcm_icp {
 namespace {
 
-constexpr double kEnoughPoints = 500;  // have to be looked at for a share to mean anything
-constexpr double kUsualShare = 0.002;  // of violations, that right poses have where nothing moves
+constexpr double kEnoughPoints = 500;   // have to be looked at for a share to mean anything, half of them either way
+constexpr double kUsualShare = 0.0015;  // of violations, that right poses have where nothing moves
+constexpr double kFullOverlap = 0.5;    // what moves is about the scanners: what shares less sees less of it
 // Of the logarithm of what right scans see through, standard deviation: people about one tell in all its pairs.
-constexpr double kScatter = 0.6;
+constexpr double kScatter = 0.4;
 constexpr double kUsualQuantile = 0.1;  // of ten storeys that are laid on one another a tenth of all pairs is right
 constexpr double kTwinRatio = 4;        // by which twins see through one another more
 
@@ -41,6 +42,17 @@ SeenThrough::Looked& SeenThrough::Looked::operator+=(const Looked& other) {
 
 double SeenThrough::share(const Looked& looked) { return std::max(looked.violations / looked.points, kUsualShare); }
 
+SeenThrough::Looked SeenThrough::looked_at(const LookedAt& points, double overlap) {
+  return {1, static_cast<double>(points.points) * std::min(1.0, overlap / kFullOverlap),
+          static_cast<double>(points.violations)};
+}
+
+SeenThrough::Looked SeenThrough::both_ways(std::size_t part, std::size_t other) const {
+  Looked out = between_[part].at(other);
+  out += between_[other].at(part);
+  return out;
+}
+
 SeenThrough::SeenThrough(const PairGraph& graph, const Component& component)
     : component_(component),
       log_alike_(graph.options().log_alike),
@@ -56,9 +68,9 @@ SeenThrough::SeenThrough(const PairGraph& graph, const Component& component)
     const PoseHypothesis* there =
         graph.measured_at(pair, *component.T_reference_scan[pair.a], *component.T_reference_scan[pair.b]);
     if (there == nullptr) continue;
-    const Looked looked{1, there->points_seen, there->points_through};
-    between_[pair.a][pair.b] += looked;
-    between_[pair.b][pair.a] += looked;
+    between_[pair.a][pair.b] += looked_at(there->of_a, there->overlap);
+    between_[pair.b][pair.a] += looked_at(there->of_b, there->overlap);
+    const Looked looked = both_ways(pair.a, pair.b);
     if (looked.points >= kEnoughPoints) shares.push_back(share(looked));
   }
   if (shares.empty()) return;
@@ -71,7 +83,7 @@ void SeenThrough::join_parts() {
   std::priority_queue<Joint> open;
   const auto consider = [&](std::size_t part) {
     for (const auto& [other, looked] : between_[part]) {
-      open.push({promise(looked), std::min(part, other), std::max(part, other), looked.pairs});
+      open.push({promise(both_ways(part, other)), std::min(part, other), std::max(part, other), looked.pairs});
     }
   };
   for (std::size_t part = 0; part < part_.size(); ++part) consider(part);
@@ -80,7 +92,7 @@ void SeenThrough::join_parts() {
     open.pop();
     const auto between = between_[joint.into].find(joint.from);
     if (between == between_[joint.into].end() || between->second.pairs != joint.pairs) continue;
-    if (between->second.points < kEnoughPoints) continue;
+    if (both_ways(joint.into, joint.from).points < kEnoughPoints) continue;
     if (excess_of_parts(joint.into, joint.from) >= kUsualExcess) continue;  // until a part has grown
     join(joint.into, joint.from);
     consider(joint.into);
@@ -91,30 +103,33 @@ double SeenThrough::promise(const Looked& between) const {
   return between.points * share(usual_) * (kTwinRatio - 1) - std::log(kTwinRatio) * between.violations;
 }
 
+bool SeenThrough::tells_within(std::size_t part) const { return within_[part].points >= kEnoughPoints; }
+
 double SeenThrough::excess_of_parts(std::size_t part, std::size_t other) const {
   const auto found = between_[part].find(other);
-  if (found == between_[part].end() || found->second.points < kEnoughPoints) return 0;
-  const Looked& between = found->second;
+  if (found == between_[part].end()) return 0;
+  if (std::min(found->second.points, between_[other].at(part).points) < kEnoughPoints / 2) return 0;
+  return std::min(excess_one_way(part, other), excess_one_way(other, part));
+}
+
+double SeenThrough::excess_one_way(std::size_t part, std::size_t other) const {
+  const Looked& between = between_[part].at(other);
+  const Looked& within = tells_within(part) ? within_[part] : tells_within(other) ? within_[other] : usual_;
   const double of_scans = kScatter * kScatter * (1 / size_[part] + 1 / size_[other]);
-  const auto beyond = [&](const Looked& within) {
-    const double of_counts = 1 / (between.points * share(between)) + 1 / (within.points * share(within));
-    return std::max(0.0, std::log(share(between) / share(within)) - std::sqrt(of_scans + of_counts));
-  };
-  const bool has_one = within_[part].points >= kEnoughPoints, has_two = within_[other].points >= kEnoughPoints;
-  if (!has_one && !has_two) return beyond(usual_);
-  return std::max(has_one ? beyond(within_[part]) : 0, has_two ? beyond(within_[other]) : 0);
+  const double of_counts = 1 / (between.points * share(between)) + 1 / (within.points * share(within));
+  return std::max(0.0, std::log(share(between) / share(within)) - std::sqrt(of_scans + of_counts));
 }
 
 void SeenThrough::join(std::size_t into, std::size_t from) {
   size_[into] += size_[from];
   within_[into] += within_[from];
-  within_[into] += between_[into][from];
+  within_[into] += both_ways(into, from);
   between_[into].erase(from);
   between_[from].erase(into);
   for (const auto& [other, looked] : between_[from]) {
     between_[into][other] += looked;
+    between_[other][into] += between_[other][from];
     between_[other].erase(from);
-    between_[other][into] = between_[into][other];
   }
   between_[from].clear();
   std::replace(part_.begin(), part_.end(), from, into);

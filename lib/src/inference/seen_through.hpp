@@ -9,23 +9,24 @@
 
 namespace tcm_icp {
 
-/// Up to where right parts have it, too, because one half of a set differs from the other (19 of 20), and from where on
-/// hardly any have (1 of 200; docs/decisions/0013).
+/// Up to where right parts have it, too, because one half of a set differs from the other, and from where on hardly any
+/// have (docs/decisions/0013).
 constexpr double kUsualExcess = 0.6, kTwinExcess = 1;
 
 /// Storeys that look alike agree where they are laid on one another, but each sees through what stands only in the
-/// other. So do scans with people about, but all their pairs alike. Scans and parts are joined one after another, those
-/// first that are likeliest to see through one another no more than is usual, as long as the excess between two parts
-/// is usual.
+/// other. People about a scanner are seen through, too, by all that overlap with it much, and see through nobody: so
+/// either part must see through the other, and what overlaps little tells little. Scans and parts are joined one after
+/// another, those first that are likeliest to see through one another no more than is usual, as long as the excess
+/// between two parts is usual.
 class SeenThrough {
  public:
   /// By the pairs of the component that were measured at these very poses.
   /// Cost: the pairs that were measured anywhere, and for each member the parts about it.
   SeenThrough(const PairGraph& graph, const Component& component);
 
-  /// Logarithm of how many times as much is seen through between the parts of two scans as within the one that sees
-  /// through less, of those with pairs of their own, less a standard error; shares that right poses have are one. 0
-  /// within a part, and where too few points were looked at.
+  /// Of the parts of two scans: logarithm of how many times as much of the one the other sees through as it does
+  /// itself, less a standard error, or the other way round, whichever is less; shares that right poses have are one. 0
+  /// within a part, and where of either too few points were looked at.
   double excess(std::size_t a, std::size_t b) const;
 
   /// By how much less the agreement of two scans says against twins: log_alike from kTwinExcess on, nothing up to
@@ -37,13 +38,19 @@ class SeenThrough {
   std::vector<std::vector<std::size_t>> parts() const;
 
  private:
+  // Points of a part, looked at by its own scans or another's; of pairs that overlap little fewer.
   struct Looked {
     double pairs = 0, points = 0, violations = 0;
     Looked& operator+=(const Looked& other);
   };
 
   static double share(const Looked& looked);
+  static Looked looked_at(const LookedAt& points, double overlap);
+  Looked both_ways(std::size_t part, std::size_t other) const;
   double excess_of_parts(std::size_t part, std::size_t other) const;
+  // Of what is seen of `part` from `other`.
+  double excess_one_way(std::size_t part, std::size_t other) const;
+  bool tells_within(std::size_t part) const;
   bool is_seen_through(std::size_t part) const;
   // How much likelier it is to see through as much as is usual than through a few times as much.
   double promise(const Looked& between) const;
@@ -55,7 +62,7 @@ class SeenThrough {
   std::vector<std::size_t> part_;                       // of every scan; a part is named by one of its scans
   std::vector<double> size_;                            // of every part: its scans
   std::vector<Looked> within_;                          // of every part
-  std::vector<std::map<std::size_t, Looked>> between_;  // of every part, and each other one
+  std::vector<std::map<std::size_t, Looked>> between_;  // of every part, by each other one
   Looked usual_;                                        // stands for two parts of which neither has pairs of its own
 };
 

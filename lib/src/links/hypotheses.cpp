@@ -131,8 +131,9 @@ PoseHypothesis HypothesisSet::pose_of(const MeasuredPose& measured) const {
   h.log_odds = in_set(h, hypothesis_log_odds(features_of(h, reference_)));
   PoseHypothesis out = pose_of(h);
   out.is_there = true;
-  out.points_seen = static_cast<double>(measured.measurements.free_space.num_points);
-  out.points_through = static_cast<double>(measured.measurements.free_space.num_violating);
+  const FreeSpaceEvidence& seen = measured.measurements.free_space;
+  out.of_a = {seen.num_points - seen.num_points_of_b, seen.num_violating - seen.num_violating_of_b};
+  out.of_b = {seen.num_points_of_b, seen.num_violating_of_b};
   return out;
 }
 

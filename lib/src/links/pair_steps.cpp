@@ -26,8 +26,8 @@ void transfer(Record& record, T& value) {
 
 template <typename Record, MaybeConst<FreeSpaceEvidence> T>
 void transfer(Record& record, T& value) {
-  auto& [num_points, num_violating, num_matches, num_opposed] = value;
-  record(num_points, num_violating, num_matches, num_opposed);
+  auto& [num_points, num_violating, num_matches, num_opposed, num_points_of_b, num_violating_of_b] = value;
+  record(num_points, num_violating, num_matches, num_opposed, num_points_of_b, num_violating_of_b);
 }
 
 template <typename Record, MaybeConst<LinkMeasurements> T>

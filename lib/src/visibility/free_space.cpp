@@ -21,7 +21,8 @@ double beyond_chance(std::size_t part, std::size_t all, double largest_share) {
 
 struct Tally {
   std::size_t before = 0, at = 0;
-  double share() const { return before + at == 0 ? 1 : static_cast<double>(before) / static_cast<double>(before + at); }
+  std::size_t count() const { return before + at; }
+  double share() const { return count() == 0 ? 1 : static_cast<double>(before) / static_cast<double>(count()); }
 };
 
 Tally look(const RangeImage& image, const Cloud& points, double voxel_m) {
@@ -48,23 +49,22 @@ std::vector<std::size_t> pick(const Cloud& cloud, std::size_t max_points) {
   return out;
 }
 
-void look_from(const SightedScan& viewer, const SightedScan& other, const std::vector<std::size_t>& picked,
-               const Eigen::Isometry3d& T_viewer_other, FreeSpaceEvidence& evidence) {
+Tally look_from(const SightedScan& viewer, const SightedScan& other, const std::vector<std::size_t>& picked,
+                const Eigen::Isometry3d& T_viewer_other) {
   Cloud moved;
   for (const std::size_t i : picked) {
     moved.points.push_back(T_viewer_other * other.surfaces.cloud.points[i]);
     moved.normals.push_back(T_viewer_other.linear() * other.surfaces.cloud.normals[i]);
   }
   const double voxel_m = viewer.surfaces.voxel_size_m;
-  Tally least{1, 0};
+  Tally least;
   bool first = true;
   for (const RangeImage& image : viewer.sight.images) {
     const Tally tally = look(image, moved, voxel_m);
     if (first || tally.share() < least.share()) least = tally;
     first = false;
   }
-  evidence.num_violating += least.before;
-  evidence.num_points += least.before + least.at;
+  return least;
 }
 
 void compare_sides(const SightedScan& a, const SightedScan& b, const std::vector<std::size_t>& picked,
@@ -97,6 +97,8 @@ double FreeSpaceEvidence::excess() const {
 FreeSpaceEvidence& FreeSpaceEvidence::operator+=(const FreeSpaceEvidence& other) {
   num_points += other.num_points;
   num_violating += other.num_violating;
+  num_points_of_b += other.num_points_of_b;
+  num_violating_of_b += other.num_violating_of_b;
   num_matches += other.num_matches;
   num_opposed += other.num_opposed;
   return *this;
@@ -112,9 +114,14 @@ FreeSpaceEvidence measure_free_space(const SightedScan& a, const SightedScan& b,
 
 FreeSpaceEvidence measure_violations(const SightedScan& a, const SightedScan& b, const Eigen::Isometry3d& T_a_b,
                                      std::size_t max_points) {
+  Tally of_a, of_b;
+  if (a.sight.sees_space()) of_b = look_from(a, b, pick(b.surfaces.cloud, max_points), T_a_b);
+  if (b.sight.sees_space()) of_a = look_from(b, a, pick(a.surfaces.cloud, max_points), T_a_b.inverse());
   FreeSpaceEvidence evidence;
-  if (a.sight.sees_space()) look_from(a, b, pick(b.surfaces.cloud, max_points), T_a_b, evidence);
-  if (b.sight.sees_space()) look_from(b, a, pick(a.surfaces.cloud, max_points), T_a_b.inverse(), evidence);
+  evidence.num_points = of_a.count() + of_b.count();
+  evidence.num_violating = of_a.before + of_b.before;
+  evidence.num_points_of_b = of_b.count();
+  evidence.num_violating_of_b = of_b.before;
   return evidence;
 }
 

@@ -15,6 +15,7 @@ struct FreeSpaceEvidence {
   std::size_t num_violating = 0;  ///< of these, before them: the other looked through
   std::size_t num_matches = 0;    ///< surfaces of both that meet, the side known that was seen of each
   std::size_t num_opposed = 0;    ///< of these, opposite sides
+  std::size_t num_points_of_b = 0, num_violating_of_b = 0;  ///< of the former two, points of the second scan
 
   double violation_share() const { return share(num_violating, num_points); }
   double opposed_share() const { return share(num_opposed, num_matches); }
