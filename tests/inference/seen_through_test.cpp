@@ -62,7 +62,7 @@ TEST_F(SeenThroughTest, AStoreySeesThroughTheOthersMoreThanThroughItself) {
 }
 
 TEST_F(SeenThroughTest, WhatRightPosesShowIsNoExcess) {
-  add_storeys(0, 0.0015);
+  add_storeys(0.0001, 0.002);
   EXPECT_TRUE(parts().empty());
   EXPECT_EQ(excess(3, 6), 0);
 }
@@ -75,6 +75,14 @@ TEST_F(SeenThroughTest, OnePairProvesLittle) {
 TEST_F(SeenThroughTest, ASceneWherePeopleWalkHasNone) {
   add_storeys(0.03, 0.03);
   EXPECT_TRUE(parts().empty());
+}
+
+TEST_F(SeenThroughTest, AScanTheOthersSeeThroughTwiceAsMuchHasNone) {
+  for (std::size_t a = 0; a < 9; ++a) {
+    for (std::size_t b = a + 1; b < 9; ++b) add(a, b, a == 4 || b == 4 ? 0.02 : 0.01);
+  }
+  EXPECT_TRUE(parts().empty());
+  EXPECT_EQ(excess(0, 4), 0);
 }
 
 // All see through the people, who see through nobody.
