@@ -79,6 +79,25 @@ TEST(HeightCorrelation, FindsTheYardAmongNoiseAndOutliers) {
   }
 }
 
+TEST(HeightCorrelation, ADeepSearchFindsMoreThanTheSamePoses) {
+  Rng rng = make_stream(6, "test");
+  const SyntheticScene scene = yard(0.02, 0, rng);
+  HeightCorrelationOptions options;
+  const auto usual = poses_of(pointers(scene.scans), {{0, 1}}, options, 1)[0];
+  options.depth = 4;
+  const auto deep = poses_of(pointers(scene.scans), {{0, 1}}, options, 1)[0];
+  const auto most = static_cast<std::size_t>(options.max_candidates);
+  ASSERT_EQ(usual.size(), most);
+  EXPECT_GT(deep.size(), most);
+  EXPECT_LE(deep.size(), 4 * most);
+  for (const PoseCandidate& pose : usual) {
+    EXPECT_TRUE(std::any_of(deep.begin(), deep.end(), [&](const PoseCandidate& other) {
+      return pose_rmse_m(pose.T_target_source, other.T_target_source, scene.scans[1].points) < kTolerance_m;
+    }));
+  }
+  for (std::size_t i = 1; i < deep.size(); ++i) EXPECT_LE(deep[i].score, deep[i - 1].score);
+}
+
 TEST(HeightCorrelation, HasNoMarginForAStranger) {
   Rng rng = make_stream(4, "test");
   SyntheticScene scene = yard(0.02, 0, rng);
@@ -220,6 +239,9 @@ TEST(HeightCorrelation, RejectsOptionsOutOfBounds) {
   EXPECT_THROW(options.validate(), InvalidOptions);
   options = {};
   options.max_candidates = 0;
+  EXPECT_THROW(options.validate(), InvalidOptions);
+  options = {};
+  options.depth = 0;
   EXPECT_THROW(options.validate(), InvalidOptions);
   options = {};
   options.map.clip_sigma = 0;

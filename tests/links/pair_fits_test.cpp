@@ -48,6 +48,17 @@ TEST_F(PairFitsOfTwoScans, FitFromTheMostPromisingCandidateAndEndWhereItIsClear)
   EXPECT_TRUE(set.pairs().at({0, 1}).front().is_later);
 }
 
+TEST_F(PairFitsOfTwoScans, KnowWhichCandidatesWereLookedAt) {
+  const double voxel_m = s.resolutions.coarse_m;
+  const auto first = about(s, voxel_m, 2), other = about(s, 30 * voxel_m, 1);
+  EXPECT_EQ(fits.untried(0, 1, {first, other}, voxel_m).size(), 2U) << "none was, yet";
+  fits.fit({{0, 1}}, {{first}}, true, set);
+  const auto left = fits.untried(0, 1, {about(s, 1.5 * voxel_m, 2), about(s, 2.5 * voxel_m, 2), other}, voxel_m);
+  ASSERT_EQ(left.size(), 2U) << "the first lies within a voxel of the one that was";
+  EXPECT_EQ(left[0].T_target_source.translation(), about(s, 2.5 * voxel_m, 2).T_target_source.translation());
+  EXPECT_EQ(left[1].T_target_source.translation(), other.T_target_source.translation());
+}
+
 TEST_F(PairFitsOfTwoScans, KnowAPairWithoutCandidatesAsCompared) {
   fits.fit({{0, 1}}, {{}}, false, set);
   EXPECT_TRUE(fits.poses_of(0, 1).empty());

@@ -67,7 +67,7 @@ TEST(PairSearch, FindsThePosesOfASetInUnknownFrames) {
   }
 }
 
-TEST(PairSearch, AsksLocalFeaturesNextThenSlidesAndThenNothing) {
+TEST(PairSearch, AsksLocalFeaturesNextThenSlidesThenMoreOfBothAndThenNothing) {
   const PreparedScene s = yard(2, 2);
   PairSearch search(s.scans, kOptions, kContext);
   HypothesisSet set = no_hypotheses(s);
@@ -88,6 +88,13 @@ TEST(PairSearch, AsksLocalFeaturesNextThenSlidesAndThenNothing) {
   EXPECT_EQ(count(by_features, CoarseMethod::kSlide), 0);
   EXPECT_TRUE(search.extend(all(2), apart(2), set)) << "slides";
   EXPECT_EQ(count(methods(), CoarseMethod::kFeatures), count(by_features, CoarseMethod::kFeatures));
+  const auto by_slides = methods();
+  ASSERT_TRUE(search.extend(all(2), apart(2), set));
+  const auto by_more_maps = methods();
+  EXPECT_GT(count(by_more_maps, CoarseMethod::kHeightMap), count(by_slides, CoarseMethod::kHeightMap));
+  EXPECT_EQ(count(by_more_maps, CoarseMethod::kFeatures), count(by_slides, CoarseMethod::kFeatures));
+  EXPECT_TRUE(search.extend(all(2), apart(2), set)) << "more of features";
+  EXPECT_EQ(count(methods(), CoarseMethod::kHeightMap), count(by_more_maps, CoarseMethod::kHeightMap));
   EXPECT_FALSE(search.extend(all(2), apart(2), set)) << "no pair is tried twice";
 }
 
@@ -269,7 +276,7 @@ TEST(PairSearch, TheLastScanOfALargeSetIsAlignedWithAll) {
   wanted[3] = true;
   ASSERT_TRUE(search.extend(wanted, apart(kAll), set));
   EXPECT_EQ(store.counts()["rankings"].num_made, kAll - 1);
-  EXPECT_EQ(store.counts()["features"].num_made, 6u) << "by both levels only those it is compared with";
+  EXPECT_EQ(store.counts()["features"].num_made, 2 * 6u) << "by both levels only those it is compared with, twice";
   EXPECT_EQ(set.pairs().size(), 6u);
 }
 

@@ -21,7 +21,8 @@ namespace {
 // A grid half as wide again as the widest scan: shifts up to half its width do not wrap around.
 constexpr double kPadding = 1.5;
 constexpr double kMinWidthShare = 0.01;  // of the length, for scans on a line
-// The search's best peaks are turned and shifted on its own maps, the best of them on maps with cells half as wide.
+// The search's best peaks are turned and shifted on its own maps, the best of them on maps with cells half as wide;
+// so many by depth.
 constexpr std::size_t kPeaksRefined = 24, kCellsRefined = 2000;
 constexpr std::size_t kPeaksFine = 8, kCellsFine = 4000;
 constexpr int kFineScale = 2;
@@ -72,6 +73,7 @@ struct HeightSearch {
   double min_shared(const HeightMap& a, const HeightMap& b) const {
     return std::max(30.0, options.min_shared_share * std::min(a.num_seen, b.num_seen));
   }
+  std::size_t deep(std::size_t count) const { return count * static_cast<std::size_t>(options.depth); }
   int steps_per_quarter() const { return static_cast<int>(std::lround(90 / options.heading_step_deg)); }
   double heading_step_rad() const { return EIGEN_PI / 2 / steps_per_quarter(); }
 };
@@ -205,7 +207,7 @@ std::vector<PoseCandidate> HeightSearch::candidates(const ScanPair& pair, const 
     refined = distinct;
   };
   drop_near(1);
-  if (refined.size() > kPeaksFine) refined.resize(kPeaksFine);
+  if (refined.size() > deep(kPeaksFine)) refined.resize(deep(kPeaksFine));
   for (MapPeak& peak : refined) {
     const HeightMap& map = target.fine_maps[peak.target_map];
     const double least = min_shared(map, source.fine_maps[peak.source_map]);
@@ -221,8 +223,8 @@ std::vector<PoseCandidate> HeightSearch::candidates(const ScanPair& pair, const 
   std::erase_if(refined, [](const MapPeak& peak) { return !(peak.score > 0); });
   const std::vector<MapPeak>& distinct = refined;
   std::vector<PoseCandidate> out;
-  for (std::size_t i = 0; i < std::min<std::size_t>(distinct.size(), static_cast<std::size_t>(options.max_candidates));
-       ++i) {
+  const std::size_t most = deep(static_cast<std::size_t>(options.max_candidates));
+  for (std::size_t i = 0; i < std::min(distinct.size(), most); ++i) {
     const MapPeak& peak = distinct[i];
     const MapPeak* rival = i > 0 ? &distinct[0] : distinct.size() > 1 ? &distinct[1] : nullptr;
     PoseCandidate candidate;
@@ -248,6 +250,7 @@ void HeightCorrelationOptions::validate() const {
   require(heading_step_deg > 0 && heading_step_deg <= 15, "heading_step_deg", heading_step_deg, "in (0, 15]");
   require(min_shared_share >= 0 && min_shared_share <= 1, "min_shared_share", min_shared_share, "between 0 and 1");
   require(max_candidates >= 1, "max_candidates", max_candidates, "at least 1");
+  require(depth >= 1, "depth", depth, "at least 1");
   map.validate();
 }
 
@@ -289,7 +292,7 @@ void search_in_blocks(ScansFromAbove& scans, const std::vector<ScanPair>& pairs,
     const std::size_t end = next_block(pairs, begin, members);
     search.make_maps(members);
     const auto block = std::span(pairs).subspan(begin, end - begin);
-    const auto peaks = search.correlate(block, members, for_candidates ? kPeaksRefined : kPeaksScreened);
+    const auto peaks = search.correlate(block, members, for_candidates ? search.deep(kPeaksRefined) : kPeaksScreened);
     if (for_candidates) search.make_fine_maps(members);
     use(search, begin, peaks);
     search.drop_maps(members);

@@ -22,15 +22,21 @@ FeatureSearch::FeatureSearch(const std::vector<PreparedScan>& scans, const LinkS
   by_first_level_.levels.resize(1);
 }
 
-std::vector<std::vector<PoseCandidate>> FeatureSearch::candidates(const ScanPairs& pairs) {
-  align(pairs, by_all_levels_, feature_key, aligned_);
+std::vector<std::vector<PoseCandidate>> FeatureSearch::candidates(const ScanPairs& pairs, int depth) {
+  FeatureAlignmentOptions by = by_all_levels_;
+  by.max_hypotheses *= depth;
+  by.max_candidates *= depth;
+  const auto key = [&](const PreparedScan& a, const PreparedScan& b) { return feature_key(a, b, options_, depth); };
+  Alignments& known = aligned_[depth];
+  align(pairs, by, key, known);
   std::vector<std::vector<PoseCandidate>> out;
-  for (const auto& pair : pairs) out.push_back(aligned_.at(pair));
+  for (const auto& pair : pairs) out.push_back(known.at(pair));
   return out;
 }
 
 std::vector<double> FeatureSearch::scores(const ScanPairs& pairs) {
-  align(pairs, by_first_level_, ranking_key, ranked_);
+  const auto key = [&](const PreparedScan& a, const PreparedScan& b) { return ranking_key(a, b, options_); };
+  align(pairs, by_first_level_, key, ranked_);
   std::vector<double> out;
   for (const auto& pair : pairs) out.push_back(best_score(ranked_.at(pair)));
   return out;
@@ -56,7 +62,8 @@ void FeatureSearch::describe() {
 }
 
 // What was not yet.
-void FeatureSearch::align(const ScanPairs& pairs, const FeatureAlignmentOptions& by, MakeKey key, Alignments& known) {
+void FeatureSearch::align(const ScanPairs& pairs, const FeatureAlignmentOptions& by, const MakeKey& key,
+                          Alignments& known) {
   describe();
   ScanPairs open;
   for (const auto& pair : pairs) {
@@ -67,7 +74,7 @@ void FeatureSearch::align(const ScanPairs& pairs, const FeatureAlignmentOptions&
     for (std::size_t k = begin; k < end; ++k) {
       const auto [a, b] = open[k];
       found[k] = candidates_once(
-          store_, [&, a = a, b = b] { return key(scans_[a], scans_[b], options_); },
+          store_, [&, a = a, b = b] { return key(scans_[a], scans_[b]); },
           [&, a = a, b = b] { return aligned(a, b, by); });
     }
   });

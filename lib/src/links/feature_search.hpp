@@ -1,12 +1,14 @@
 #pragma once
 // Poses of pairs by local features: scans are described once, when they are first asked for.
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <vector>
 
 #include "links/link_fit.hpp"
 #include "links/pair_steps.hpp"
+#include "links/search_depth.hpp"
 #include "scans/prepared_scan.hpp"
 #include "tcm_icp/coarse/feature_alignment.hpp"
 #include "tcm_icp/coarse/scan_words.hpp"
@@ -23,7 +25,8 @@ class FeatureSearch {
                 const StepStore* store);
 
   /// Of each pair.
-  std::vector<std::vector<PoseCandidate>> candidates(const ScanPairs& pairs);
+  /// @param depth  kUsualDepth or kDeep
+  std::vector<std::vector<PoseCandidate>> candidates(const ScanPairs& pairs, int depth = kUsualDepth);
 
   /// How likely pairs overlap: scores of the best candidates by the first level alone, which tells that, too.
   std::vector<double> scores(const ScanPairs& pairs);
@@ -33,10 +36,10 @@ class FeatureSearch {
 
  private:
   using Alignments = std::map<ScanPairs::value_type, std::vector<PoseCandidate>>;
-  using MakeKey = StepKey (*)(const PreparedScan&, const PreparedScan&, const LinkSearchOptions&);
+  using MakeKey = std::function<StepKey(const PreparedScan&, const PreparedScan&)>;
 
   void describe();
-  void align(const ScanPairs& pairs, const FeatureAlignmentOptions& by, MakeKey key, Alignments& known);
+  void align(const ScanPairs& pairs, const FeatureAlignmentOptions& by, const MakeKey& key, Alignments& known);
   std::vector<PoseCandidate> aligned(std::size_t a, std::size_t b, const FeatureAlignmentOptions& by) const;
 
   const std::vector<PreparedScan>& scans_;
@@ -46,7 +49,8 @@ class FeatureSearch {
   FeatureAlignmentOptions by_all_levels_, by_first_level_;
   std::vector<DescribedScan> described_;
   std::optional<ScanWords> words_;
-  Alignments aligned_, ranked_;  // by all levels, by the first
+  std::map<int, Alignments> aligned_;  // by depth
+  Alignments ranked_;                  // by the first level
 };
 
 }  // namespace tcm_icp

@@ -28,8 +28,9 @@ HeightCorrelationOptions screening_on(const CorrelationGrid& grid) {
   return options;
 }
 
-HeightCorrelationOptions full_on(const CorrelationGrid& grid) {
+HeightCorrelationOptions full_on(const CorrelationGrid& grid, int depth) {
   HeightCorrelationOptions options;
+  options.depth = depth;
   options.grid = grid;
   return options;
 }
@@ -49,7 +50,7 @@ std::vector<HeightMapGrids> HeightMapSearch::grids_of(const ScanPairs& pairs) {
       return std::vector<CorrelationGrid>(scans_.size(),
                                           choose_correlation_grid(from_above_, options, context_.num_threads));
     };
-    const auto screening = of_scans(screening_on({})), full = of_scans(full_on({}));
+    const auto screening = of_scans(screening_on({})), full = of_scans(full_on({}, kUsualDepth));
     for (std::size_t i = 0; i < scans_.size(); ++i) of_scans_.push_back({screening[i], full[i]});
   }
   std::vector<HeightMapGrids> out;
@@ -60,24 +61,25 @@ std::vector<HeightMapGrids> HeightMapSearch::grids_of(const ScanPairs& pairs) {
   return out;
 }
 
-std::vector<std::vector<PoseCandidate>> HeightMapSearch::candidates(const ScanPairs& pairs) {
+std::vector<std::vector<PoseCandidate>> HeightMapSearch::candidates(const ScanPairs& pairs, int depth) {
+  auto& known = found_[depth];
   ScanPairs open;
   for (const auto& pair : pairs) {
-    if (!found_.contains(pair)) open.push_back(pair);
+    if (!known.contains(pair)) open.push_back(pair);
   }
-  auto found = candidates_on(grids_of(open), open);
-  for (std::size_t k = 0; k < open.size(); ++k) found_.emplace(open[k], std::move(found[k]));
+  auto found = candidates_on(grids_of(open), open, depth);
+  for (std::size_t k = 0; k < open.size(); ++k) known.emplace(open[k], std::move(found[k]));
   std::vector<std::vector<PoseCandidate>> out;
-  for (const auto& pair : pairs) out.push_back(found_.at(pair));
+  for (const auto& pair : pairs) out.push_back(known.at(pair));
   return out;
 }
 
 std::vector<std::vector<PoseCandidate>> HeightMapSearch::candidates_on(const std::vector<HeightMapGrids>& grids,
-                                                                       const ScanPairs& pairs) {
+                                                                       const ScanPairs& pairs, int depth) {
   std::vector<std::vector<PoseCandidate>> out(pairs.size());
   const auto key = [&](std::size_t k) {
     return height_map_key(scans_[pairs[k].first], scans_[pairs[k].second], from_above_.vertical(),
-                          screening_on(grids[k].screening), full_on(grids[k].full));
+                          screening_on(grids[k].screening), full_on(grids[k].full, depth));
   };
   std::map<std::tuple<double, int, double, int>, std::vector<std::size_t>> missing;  // by grids
   for (std::size_t k = 0; k < pairs.size(); ++k) {
@@ -86,16 +88,17 @@ std::vector<std::vector<PoseCandidate>> HeightMapSearch::candidates_on(const std
     const auto& [screening, full] = grids[k];
     if (!known) missing[{screening.cell_m, screening.size, full.cell_m, full.size}].push_back(k);
   }
+  const std::string stage = depth == kUsualDepth ? "comparing height maps" : "comparing more of height maps";
   for (const auto& [grid, places] : missing) {
     const std::size_t num_blocks = (places.size() + kBlock - 1) / kBlock;
     for (std::size_t number = 0; number < num_blocks; ++number) {
       const std::size_t first = places.size() * number / num_blocks;
       const std::size_t size = places.size() * (number + 1) / num_blocks - first;
-      context_.report("comparing height maps", first, places.size());
+      context_.report(stage, first, places.size());
       ScanPairs block;
       for (std::size_t i = first; i < first + size; ++i) block.push_back(pairs[places[i]]);
       const auto start = std::chrono::steady_clock::now();
-      auto found = search(block, grids[places[first]]);
+      auto found = search(block, grids[places[first]], depth);
       const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
       for (std::size_t i = 0; i < size; ++i) {
         const std::size_t k = places[first + i];
@@ -121,11 +124,12 @@ std::vector<double> HeightMapSearch::scores(const ScanPairs& pairs) {
   return out;
 }
 
-std::vector<std::vector<PoseCandidate>> HeightMapSearch::search(const ScanPairs& pairs, const HeightMapGrids& grids) {
+std::vector<std::vector<PoseCandidate>> HeightMapSearch::search(const ScanPairs& pairs, const HeightMapGrids& grids,
+                                                                int depth) {
   screen(pairs, grids.screening);
   std::vector<ScanPair> wanted;
   for (const auto& pair : pairs) wanted.push_back({pair.first, pair.second, screened_.at(pair).ups});
-  return correlate_height_maps(from_above_, wanted, full_on(grids.full), context_.num_threads);
+  return correlate_height_maps(from_above_, wanted, full_on(grids.full, depth), context_.num_threads);
 }
 
 // What was not screened yet.

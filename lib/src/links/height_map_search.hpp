@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "links/search_depth.hpp"
 #include "scans/prepared_scan.hpp"
 #include "tcm_icp/coarse/height_correlation.hpp"
 #include "tcm_icp/core/run_context.hpp"
@@ -34,28 +35,30 @@ class HeightMapSearch {
   std::vector<HeightMapGrids> grids_of(const ScanPairs& pairs);
 
   /// Of each pair, on the grids of this set.
-  std::vector<std::vector<PoseCandidate>> candidates(const ScanPairs& pairs);
+  /// @param depth  kUsualDepth or kDeep
+  std::vector<std::vector<PoseCandidate>> candidates(const ScanPairs& pairs, int depth = kUsualDepth);
 
   /// The same on the grids of a larger set: those that are kept there; of the others a block at a time is searched and
   /// kept.
   /// @param grids  of each pair
   std::vector<std::vector<PoseCandidate>> candidates_on(const std::vector<HeightMapGrids>& grids,
-                                                        const ScanPairs& pairs);
+                                                        const ScanPairs& pairs, int depth = kUsualDepth);
 
   /// How likely pairs overlap, by coarse maps (PairScreening::score).
   std::vector<double> scores(const ScanPairs& pairs);
 
  private:
-  std::vector<std::vector<PoseCandidate>> search(const ScanPairs& pairs, const HeightMapGrids& grids);
+  std::vector<std::vector<PoseCandidate>> search(const ScanPairs& pairs, const HeightMapGrids& grids, int depth);
   void screen(const ScanPairs& pairs, const CorrelationGrid& grid);
 
   const std::vector<PreparedScan>& scans_;
   ScansFromAbove from_above_;
   const RunContext& context_;
   const KeptSearches& kept_;
-  std::vector<HeightMapGrids> of_scans_;                               // once they are asked for
-  std::map<ScanPairs::value_type, PairScreening> screened_;            // the same
-  std::map<ScanPairs::value_type, std::vector<PoseCandidate>> found_;  // the same, on the set's own grids
+  std::vector<HeightMapGrids> of_scans_;                     // once they are asked for
+  std::map<ScanPairs::value_type, PairScreening> screened_;  // the same
+  // The same, on the set's own grids, by depth.
+  std::map<int, std::map<ScanPairs::value_type, std::vector<PoseCandidate>>> found_;
 };
 
 }  // namespace tcm_icp

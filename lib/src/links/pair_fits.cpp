@@ -7,6 +7,7 @@
 #include "core/acceptance.hpp"
 #include "links/pair_steps.hpp"
 #include "tcm_icp/core/parallel.hpp"
+#include "tcm_icp/core/rigid_transform.hpp"
 
 namespace tcm_icp {
 namespace {
@@ -15,6 +16,13 @@ namespace {
 constexpr int kMaxFits = 3;
 
 }  // namespace
+
+bool has_within(const std::vector<Eigen::Isometry3d>& known, const Eigen::Isometry3d& T_a_b, double distance_m,
+                const PointMoments& moments) {
+  return std::any_of(known.begin(), known.end(), [&](const Eigen::Isometry3d& T) {
+    return rms_displacement(T_a_b.inverse() * T, moments) < distance_m;
+  });
+}
 
 PairFits::PairFits(const std::vector<PreparedScan>& scans, const LinkSearchOptions& options, const RunContext& context,
                    const StepStore* store)
@@ -33,6 +41,7 @@ void PairFits::fit(const ScanPairs& pairs, const std::vector<std::vector<PoseCan
   std::vector<std::size_t> open(pairs.size());
   std::iota(open.begin(), open.end(), std::size_t{0});
   std::vector<int> num_fits(pairs.size(), 0);
+  std::vector<std::vector<Eigen::Isometry3d>> tried(pairs.size());
   while (!open.empty()) {
     std::vector<std::optional<LinkHypothesis>> found(open.size());
     parallel_for(context_.num_threads, open.size(), [&](std::size_t begin, std::size_t end) {
@@ -41,6 +50,7 @@ void PairFits::fit(const ScanPairs& pairs, const std::vector<std::vector<PoseCan
         std::vector<PoseCandidate>& queue = queues[open[i]];
         while (!queue.empty() && !found[i]) {
           found[i] = fit_candidate_once(store_, scans_[a], scans_[b], queue.back(), options_);
+          tried[open[i]].push_back(queue.back().T_target_source);
           queue.pop_back();
         }
       }
@@ -59,6 +69,20 @@ void PairFits::fit(const ScanPairs& pairs, const std::vector<std::vector<PoseCan
              set.log_odds(pairs[k].first, pairs[k].second) >= kClearLogOdds;
     });
   }
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    auto& known = tried_[pairs[k]];
+    known.insert(known.end(), tried[k].begin(), tried[k].end());
+  }
+}
+
+std::vector<PoseCandidate> PairFits::untried(std::size_t a, std::size_t b, std::vector<PoseCandidate> candidates,
+                                             double distance_m) const {
+  const auto known = tried_.find({a, b});
+  if (known == tried_.end()) return candidates;
+  std::erase_if(candidates, [&](const PoseCandidate& candidate) {
+    return has_within(known->second, candidate.T_target_source, distance_m, scans_[b].moments);
+  });
+  return candidates;
 }
 
 void PairFits::fit_first(const ScanPairs& pairs, const std::vector<std::vector<PoseCandidate>>& candidates) const {

@@ -13,6 +13,10 @@
 
 namespace tcm_icp {
 
+/// Whether one of the poses is nearer than `distance_m` (rms over the scan that the moments are of).
+bool has_within(const std::vector<Eigen::Isometry3d>& known, const Eigen::Isometry3d& T_a_b, double distance_m,
+                const PointMoments& moments);
+
 class PairFits {
  public:
   /// Keeps references: all must outlive this.
@@ -30,6 +34,10 @@ class PairFits {
   /// The most promising candidates of each pair until one is fitted, which the store keeps.
   void fit_first(const ScanPairs& pairs, const std::vector<std::vector<PoseCandidate>>& candidates) const;
 
+  /// Candidates of a pair that lie farther than `distance_m` from all that were looked at before.
+  std::vector<PoseCandidate> untried(std::size_t a, std::size_t b, std::vector<PoseCandidate> candidates,
+                                     double distance_m) const;
+
   /// T_a_b of all fits of a pair so far.
   const std::vector<Eigen::Isometry3d>& poses_of(std::size_t a, std::size_t b) const;
 
@@ -38,7 +46,8 @@ class PairFits {
   const LinkSearchOptions& options_;
   const RunContext& context_;
   const StepStore* store_;
-  std::map<ScanPairs::value_type, std::vector<Eigen::Isometry3d>> fitted_;
+  using Poses = std::map<ScanPairs::value_type, std::vector<Eigen::Isometry3d>>;
+  Poses tried_, fitted_;  // candidates, fitted or hopeless; and where fits ended
 };
 
 }  // namespace tcm_icp

@@ -18,7 +18,7 @@ namespace tcm_icp {
 namespace {
 
 // Height maps first: they are cheap and cover a whole set at once. Local features are asked where those left scans
-// alone, and then slides, which need poses to start from.
+// alone, then slides, which need poses to start from, and then more of what height maps and features found.
 
 // A scan overlaps few others much. Where there are more, they are ranked. In a set so small that a scan may be compared
 // with all others in the end, coarse height maps of all pairs do, which cost least; in others words choose, from scans
@@ -46,14 +46,11 @@ void keep_best(const std::vector<double>& score_of_each, std::size_t count, std:
   for (std::size_t k = 0; k < count; ++k) scans[k] = by_score[k].second;
 }
 
-bool has_within(const std::vector<Eigen::Isometry3d>& known, const Eigen::Isometry3d& T_a_b, double distance_m,
-                const PointMoments& moments) {
-  return std::any_of(known.begin(), known.end(), [&](const Eigen::Isometry3d& T) {
-    return rms_displacement(T_a_b.inverse() * T, moments) < distance_m;
-  });
-}
+// By which methods a pair was tried, the cheap ones first.
+enum class Tried : char { kNothing, kHeightMaps, kFeatures, kSlides, kDeepHeightMaps, kDeepFeatures };
 
-enum class Tried : char { kNothing, kHeightMaps, kFeatures, kSlides };
+constexpr Tried kMethodsBefore[] = {Tried::kNothing, Tried::kHeightMaps, Tried::kFeatures, Tried::kSlides,
+                                    Tried::kDeepHeightMaps};
 
 Tried next(Tried before) { return static_cast<Tried>(static_cast<char>(before) + 1); }
 
@@ -152,7 +149,8 @@ struct PairSearch::Impl {
   bool is_large() const { return scans.size() > kMostPartners + 1; }
 
   bool uses(Tried method) const {
-    return method == Tried::kFeatures ? options.features : method != Tried::kSlides || options.slides;
+    if (method == Tried::kSlides) return options.slides;
+    return options.features || (method != Tried::kFeatures && method != Tried::kDeepFeatures);
   }
 
   // Inference of a large set costs more than the pairs of the few scans that it left without a place.
@@ -203,13 +201,14 @@ struct PairSearch::Impl {
   /// Pairs that were tried by `before` by the method after it; false where that is left out.
   bool try_next(Tried before, const ScanPairs& pairs, bool is_later, HypothesisSet& set) {
     const bool is_used = uses(next(before));
-    if (is_used) fits.fit(pairs, candidates(before, pairs), is_later, set);
+    if (is_used) fits.fit(pairs, candidates(before, pairs, set.fitted_m()), is_later, set);
     for (const auto& pair : pairs) tried[pair] = next(before);
     return is_used;
   }
 
   /// By the method after `before`.
-  std::vector<std::vector<PoseCandidate>> candidates(Tried before, const ScanPairs& pairs) {
+  /// @param fitted_m  poses nearer than this end at the same fit
+  std::vector<std::vector<PoseCandidate>> candidates(Tried before, const ScanPairs& pairs, double fitted_m) {
     switch (before) {
       case Tried::kNothing:
         context.report("comparing height maps", 0, pairs.size());
@@ -217,10 +216,25 @@ struct PairSearch::Impl {
       case Tried::kHeightMaps:
         context.report("comparing features", 0, pairs.size());
         return features.candidates(pairs);
-      default:
+      case Tried::kFeatures:
         context.report("comparing along corridors", 0, pairs.size());
         return slides.candidates(pairs);
+      case Tried::kSlides:
+        context.report("comparing more of height maps", 0, pairs.size());
+        return untried(pairs, height_maps.candidates(pairs, kDeep), fitted_m);
+      default:
+        context.report("comparing more of features", 0, pairs.size());
+        return untried(pairs, features.candidates(pairs, kDeep), fitted_m);
     }
+  }
+
+  std::vector<std::vector<PoseCandidate>> untried(const ScanPairs& pairs,
+                                                  std::vector<std::vector<PoseCandidate>> candidates,
+                                                  double distance_m) const {
+    for (std::size_t k = 0; k < pairs.size(); ++k) {
+      candidates[k] = fits.untried(pairs[k].first, pairs[k].second, std::move(candidates[k]), distance_m);
+    }
+    return candidates;
   }
 
   /// Fits pairs at given poses where they overlap there; of each scan those with the `most_partners` it overlaps with
@@ -310,7 +324,7 @@ bool PairSearch::extend(const std::vector<bool>& wanted, const std::vector<std::
   do {
     auto pairs = impl_->pairs(wanted, groups);
     bool any = false;
-    for (const Tried before : {Tried::kNothing, Tried::kHeightMaps, Tried::kFeatures}) {
+    for (const Tried before : kMethodsBefore) {
       const ScanPairs& now = pairs[before];
       if (now.empty()) continue;
       const bool is_used = impl_->try_next(before, now, is_later, set);

@@ -56,8 +56,8 @@ void transfer(Record& record, T& value) {
 
 template <typename Record, MaybeConst<HeightCorrelationOptions> T>
 void transfer(Record& record, T& value) {
-  auto& [cells_across, max_grid, heading_step_deg, min_shared_share, max_candidates, map, grid] = value;
-  record(cells_across, max_grid, heading_step_deg, min_shared_share, max_candidates, map, grid);
+  auto& [cells_across, max_grid, heading_step_deg, min_shared_share, max_candidates, depth, map, grid] = value;
+  record(cells_across, max_grid, heading_step_deg, min_shared_share, max_candidates, depth, map, grid);
 }
 
 namespace {
@@ -94,8 +94,9 @@ StepKey ranking_key(const PreparedScan& target, const PreparedScan& source, cons
   return step_key("rankings", target.digest, source.digest, options.level);
 }
 
-StepKey feature_key(const PreparedScan& target, const PreparedScan& source, const LinkSearchOptions& options) {
-  return step_key("features", target.digest, source.digest, options.level);
+StepKey feature_key(const PreparedScan& target, const PreparedScan& source, const LinkSearchOptions& options,
+                    int depth) {
+  return step_key("features", target.digest, source.digest, options.level, depth);
 }
 
 StepKey slide_key(const PreparedScan& target, const PreparedScan& source, const std::vector<Eigen::Isometry3d>& from) {

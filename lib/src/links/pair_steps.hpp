@@ -20,7 +20,9 @@ StepKey height_map_key(const PreparedScan& target, const PreparedScan& source, c
                        const HeightCorrelationOptions& screening, const HeightCorrelationOptions& full);
 /// Of the alignment that ranks a scan's partners.
 StepKey ranking_key(const PreparedScan& target, const PreparedScan& source, const LinkSearchOptions& options);
-StepKey feature_key(const PreparedScan& target, const PreparedScan& source, const LinkSearchOptions& options);
+/// @param depth  kUsualDepth or kDeep
+StepKey feature_key(const PreparedScan& target, const PreparedScan& source, const LinkSearchOptions& options,
+                    int depth);
 StepKey slide_key(const PreparedScan& target, const PreparedScan& source, const std::vector<Eigen::Isometry3d>& from);
 /// Check sum over the options.
 std::string search_digest(const LinkSearchOptions& options);

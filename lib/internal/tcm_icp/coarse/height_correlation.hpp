@@ -22,6 +22,7 @@ struct HeightCorrelationOptions {
   double heading_step_deg = 5;     ///< > 0, <= 15; rounded so that a quarter turn is a whole number of steps
   double min_shared_share = 0.05;  ///< 0..1; shared cells by the cells of the smaller scan
   int max_candidates = 5;          ///< >= 1; per pair
+  int depth = 1;                   ///< >= 1; how many times as many peaks are refined, and poses returned
   HeightMapOptions map;
   CorrelationGrid grid;   ///< choose_correlation_grid() of a set that the scans belong to, or nothing
   void validate() const;  ///< throws InvalidOptions
@@ -45,9 +46,9 @@ struct ScanPair {
 CorrelationGrid choose_correlation_grid(ScansFromAbove& scans, const HeightCorrelationOptions& options,
                                         int num_threads);
 
-/// For each pair up to max_candidates clearly different poses, the best score first. Score: mean of the normalised
-/// correlations of heights and of walls over the shared cells, by the root of twice their number; a pose by chance has
-/// about 10. The best pose's margin is against the second, the others' against the best.
+/// For each pair up to depth x max_candidates clearly different poses, the best score first. Score: mean of the
+/// normalised correlations of heights and of walls over the shared cells, by the root of twice their number; a pose by
+/// chance has about 10. The best pose's margin is against the second, the others' against the best.
 ///
 /// @throws InvalidInput  if a cloud has fewer than 3 points, all are equal, or a pair is out of range
 /// Cost: 72 inverse transforms a pair, 20 to 60 ms of processor time; memory for nine spectra a scan. The result does
