@@ -41,6 +41,7 @@ SCENES = (
     Scene("bays_dense", ("--scene", "bays", "--scans", "10", "--step", "0.2", "--thinning", "0.02")),
     # Checked with since 2026-11-30; the models of that day are fitted without it.
     Scene("storeys", ("--scene", "storeys", "--scans", "12")),
+    Scene("orchard", ("--scene", "orchard")),
 )
 VARIANTS = ("plain", "thin", "crop", "mirror", "stranger", "clutter", "subset", "passers")
 

@@ -41,6 +41,7 @@ expect 0 "001.ply" simulate --out "$folder/air" --scene plaza --sensor aerial --
 expect 0 "001.ply" simulate --out "$folder/lines" --scene urban --lines 16 --overlap 0.6
 expect 0 "001.ply" simulate --out "$folder/bays" --scene bays --clutter 2
 expect 0 "001.ply" simulate --out "$folder/storeys" --scene storeys
+expect 0 "001.ply" simulate --out "$folder/orchard" --scene orchard
 expect 1 "clutter" simulate --out "$folder/c" --scene bays --clutter -1
 expect 1 "sonar" simulate --out "$folder/c" --sensor sonar
 expect 1 "num_lines" simulate --out "$folder/c" --scene urban --lines 1

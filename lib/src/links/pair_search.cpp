@@ -200,10 +200,22 @@ struct PairSearch::Impl {
 
   /// Pairs that were tried by `before` by the method after it; false where that is left out.
   bool try_next(Tried before, const ScanPairs& pairs, bool is_later, HypothesisSet& set) {
-    const bool is_used = uses(next(before));
-    if (is_used) fits.fit(pairs, candidates(before, pairs, set.fitted_m()), is_later, set);
+    const ScanPairs served = served_by(next(before), pairs);
+    if (!served.empty()) fits.fit(served, candidates(before, served, set.fitted_m()), is_later, set);
     for (const auto& pair : pairs) tried[pair] = next(before);
-    return is_used;
+    return !served.empty();
+  }
+
+  /// Of many poses that look alike the right one is told by free space: where that tells nothing, more of them are more
+  /// that may agree by chance.
+  ScanPairs served_by(Tried method, ScanPairs pairs) const {
+    if (!uses(method)) return {};
+    if (method == Tried::kDeepHeightMaps || method == Tried::kDeepFeatures) {
+      std::erase_if(pairs, [&](const auto& pair) {
+        return !scans[pair.first].sight.sees_space() || !scans[pair.second].sight.sees_space();
+      });
+    }
+    return pairs;
   }
 
   /// By the method after `before`.

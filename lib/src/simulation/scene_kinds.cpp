@@ -57,6 +57,13 @@ SceneSetOptions default_canopy(SceneSetOptions options) {
   return options;
 }
 
+SceneSetOptions default_orchard(SceneSetOptions options) {
+  set_sensor(options, SensorKind::kSpinning);
+  options.num_scans = 10;
+  options.station_spacing_m = 8;
+  return options;
+}
+
 /// A scanner for rooms: nearer, finer, lower.
 SceneSetOptions default_interior(SceneSetOptions options) {
   set_sensor(options, SensorKind::kTerrestrial);
@@ -89,8 +96,9 @@ SceneSetOptions default_storeys(SceneSetOptions options) {
 }  // namespace
 
 std::vector<SceneKind> scene_kinds() {
-  return {SceneKind::kTown,     SceneKind::kBlock, SceneKind::kStreet, SceneKind::kUrban,   SceneKind::kCanopy,
-          SceneKind::kInterior, SceneKind::kPlaza, SceneKind::kBays,   SceneKind::kStoreys, SceneKind::kTownGrid};
+  return {SceneKind::kTown,   SceneKind::kBlock,   SceneKind::kStreet,   SceneKind::kUrban,
+          SceneKind::kCanopy, SceneKind::kOrchard, SceneKind::kInterior, SceneKind::kPlaza,
+          SceneKind::kBays,   SceneKind::kStoreys, SceneKind::kTownGrid};
 }
 
 SceneKind scene_kind_from_name(const std::string& name) {
@@ -114,6 +122,8 @@ std::string scene_name(SceneKind kind) {
       return "urban";
     case SceneKind::kCanopy:
       return "canopy";
+    case SceneKind::kOrchard:
+      return "orchard";
     case SceneKind::kInterior:
       return "interior";
     case SceneKind::kPlaza:
@@ -142,6 +152,8 @@ SceneSetOptions default_scene_set(SceneKind kind) {
       return default_urban(options);
     case SceneKind::kCanopy:
       return default_canopy(options);
+    case SceneKind::kOrchard:
+      return default_orchard(options);
     case SceneKind::kInterior:
       return default_interior(options);
     case SceneKind::kPlaza:

@@ -61,6 +61,8 @@ Scene make_scene(const SceneSetOptions& options, std::uint64_t seed) {
       return make_urban_scene({std::max(40.0, needed_m)}, rng);
     case SceneKind::kCanopy:
       return make_canopy_scene({std::max(40.0, needed_m)}, rng);
+    case SceneKind::kOrchard:
+      return make_orchard_scene({std::max(40.0, needed_m)}, rng);
     case SceneKind::kInterior:
       // The way into three rooms and back is as long as about 16 m of corridor.
       return make_interior_scene({std::max(15.0, needed_m - 16)}, rng);

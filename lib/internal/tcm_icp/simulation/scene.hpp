@@ -58,6 +58,16 @@ struct CanopyOptions {
 /// @throws InvalidOptions
 Scene make_canopy_scene(const CanopyOptions& options, Rng& rng);
 
+struct OrchardOptions {
+  double length_m = 80;   ///< [m] 40..2000, of the way between the rows
+  void validate() const;  ///< throws InvalidOptions
+};
+
+/// Ten rows of fruit trees, 4.5 m apart, a tree every 4 m: each a little off its place, a few missing, no two alike.
+/// The way leads along the middle aisle.
+/// @throws InvalidOptions
+Scene make_orchard_scene(const OrchardOptions& options, Rng& rng);
+
 struct InteriorOptions {
   double length_m = 30;   ///< [m] 15..500, of the corridor
   void validate() const;  ///< throws InvalidOptions
