@@ -72,11 +72,9 @@ po::options_description describe(Request& r) {
   po::options_description what("What to simulate", 110);
   what.add_options()("scene", bind_option(&r.scene),
                      "town, block (a closed loop), street (mobile), urban (moving platform), canopy (lake shore), "
-                     "orchard (equal rows), "
-                     "interior, plaza, bays (a building that repeats itself), storeys (alike, with stairs) or "
-                     "town-grid (all streets of a "
-                     "town); each has defaults of its own")                              //
-      ("scans", bind_option(&s.num_scans), "number of stations along the scene's path")  //
+                     "orchard (equal rows), interior, plaza, bays (a building that repeats itself), storeys (alike, "
+                     "with stairs) or town-grid (all streets of a town); each has defaults of its own")  //
+      ("scans", bind_option(&s.num_scans), "number of stations along the scene's path")                  //
       ("spacing", bind_option(&s.station_spacing_m),
        "[m] between stations; those of town and plaza share out their path")  //
       ("overlap", po::value(&r.overlap),

@@ -38,14 +38,7 @@ double share_that_repeats(const Scene& scene, const Vector3d& shift) {
 }
 
 TEST(OrchardScene, IsTheSameForTheSameSeedAndAnotherForAnother) {
-  const Scene a = make_orchard(1), b = make_orchard(1), c = make_orchard(2);
-  ASSERT_EQ(a.mesh.triangles.size(), b.mesh.triangles.size());
-  for (std::size_t i = 0; i < a.mesh.triangles.size(); ++i) {
-    ASSERT_TRUE(a.mesh.triangles[i].a.allFinite());
-    ASSERT_EQ(a.mesh.triangles[i].a, b.mesh.triangles[i].a);
-  }
-  EXPECT_EQ(a.path, b.path);
-  EXPECT_NE(a.path, c.path);
+  testing::expect_same_and_another(make_orchard(1), make_orchard(1), make_orchard(2));
 }
 
 TEST(OrchardScene, RepeatsATreeAndARowFartherButNotBetween) {

@@ -1,5 +1,5 @@
 #pragma once
-// What holds of every building that stations lead through.
+// What holds of every scene that stations lead through.
 
 #include <gtest/gtest.h>
 
@@ -19,6 +19,17 @@ inline bool sees_the_same(const RayCaster& caster, const Eigen::Vector3d& from, 
   const auto here = caster.first_hit(from, direction, range_m);
   const auto there = caster.first_hit(from + shift, direction, range_m);
   return here.has_value() == there.has_value() && (!here || std::abs(here->range_m - there->range_m) < 1e-6);
+}
+
+/// Two scenes of one seed, and one of another.
+inline void expect_same_and_another(const Scene& a, const Scene& b, const Scene& c) {
+  ASSERT_EQ(a.mesh.triangles.size(), b.mesh.triangles.size());
+  for (std::size_t i = 0; i < a.mesh.triangles.size(); ++i) {
+    ASSERT_TRUE(a.mesh.triangles[i].a.allFinite());
+    ASSERT_EQ(a.mesh.triangles[i].a, b.mesh.triangles[i].a);
+  }
+  EXPECT_EQ(a.path, b.path);
+  EXPECT_NE(a.path, c.path);
 }
 
 /// Anywhere along the path and to either side of it: nothing within `clear_m` of the eye, ground under it.

@@ -45,14 +45,7 @@ double share_alike(const Scene& scene, const Vector3d& shift) {
 }
 
 TEST(StoreysScene, IsTheSameForTheSameSeedAndAnotherForAnother) {
-  const Scene a = make(1), b = make(1), c = make(2);
-  ASSERT_EQ(a.mesh.triangles.size(), b.mesh.triangles.size());
-  for (std::size_t i = 0; i < a.mesh.triangles.size(); ++i) {
-    ASSERT_TRUE(a.mesh.triangles[i].a.allFinite());
-    ASSERT_EQ(a.mesh.triangles[i].a, b.mesh.triangles[i].a);
-  }
-  EXPECT_EQ(a.path, b.path);
-  EXPECT_NE(a.path, c.path);
+  testing::expect_same_and_another(make(1), make(1), make(2));
 }
 
 TEST(StoreysScene, StoreysAreAlikeButForWhatStandsAbout) {

@@ -14,7 +14,6 @@ namespace {
 
 using Eigen::Isometry3d;
 using Eigen::Translation3d;
-using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr double kRow_m = 4.5, kTree_m = 4;  // from row to row, from tree to tree
