@@ -154,7 +154,7 @@ TEST_F(HypothesisSetTest, ScoringComparesWithNoLaterHypotheses) {
   const SetReference before = set_->reference();
   LinkHypothesis later = aside(2, 3, 0, 0.9);
   later.measurements.evidence.median_residual_m /= 5;
-  later.is_later = true;
+  later.stage = SearchStage::kLater;
   set_->add(2, 3, {later});
   set_->score();
   EXPECT_EQ(set_->reference().typical_residual_m, before.typical_residual_m);
@@ -207,7 +207,7 @@ TEST_F(HypothesisSetTest, LaterHypothesesTeachAConstantOfTheirOwn) {
   const SetReference first = learn();
   EXPECT_EQ(first.later_constant, 0) << "there are none";
   LinkHypothesis later = aside(1, 2, 30);
-  later.is_later = true;
+  later.stage = SearchStage::kLater;
   set_->add(1, 2, {later});
   const SetReference both = learn();
   EXPECT_NEAR(both.constant, first.constant, 0.01);
@@ -217,8 +217,44 @@ TEST_F(HypothesisSetTest, LaterHypothesesTeachAConstantOfTheirOwn) {
   EXPECT_EQ(set_->reference().later_constant, both.later_constant) << "scoring keeps it";
   const auto& of_pair = set_->pairs().at({1, 2});
   ASSERT_EQ(of_pair.size(), 2u);
-  EXPECT_NE(of_pair[0].is_later, of_pair[1].is_later);
+  EXPECT_NE(of_pair[0].is_later(), of_pair[1].is_later());
   EXPECT_GT(std::abs(set_->log_odds(0, 1) - before), 0) << "the constant of the first is in effect";
+}
+
+// Dozens are looked at for the one that stands out.
+TEST_F(HypothesisSetTest, OfDeepOnesOnlyWhatIsLikelierRightThanWrongIsLeft) {
+  LinkHypothesis likely = aside(0, 1, 0), unlikely = aside(0, 1, 30, 0.05), searched = aside(0, 1, -40, 0.05);
+  for (LinkHypothesis* h : {&unlikely, &searched}) {
+    h->measurements.free_space.num_violating = h->measurements.free_space.num_points / 10;
+  }
+  likely.stage = unlikely.stage = SearchStage::kDeep;
+  searched.stage = SearchStage::kLater;
+  set_->add(0, 1, {likely, unlikely, searched});
+  set_->score();
+  ASSERT_GT(of(0, 1)[0].log_odds, 0);
+  ASSERT_LT(of(0, 1)[1].log_odds, 0);
+  set_->drop_unlikely_deep();
+  ASSERT_EQ(of(0, 1).size(), 2u);
+  EXPECT_EQ(of(0, 1)[0].stage, SearchStage::kDeep);
+  EXPECT_EQ(of(0, 1)[1].stage, SearchStage::kLater) << "what the best of a search show stays, likely or not";
+}
+
+TEST_F(HypothesisSetTest, ADeepOneTakesThePlaceOfAnImpliedOneOnlyIfItIsLikely) {
+  LinkHypothesis right = aside(0, 1, 0), wrong = aside(0, 1, 30, 0.05);
+  wrong.measurements.free_space.num_violating = wrong.measurements.free_space.num_points / 10;
+  for (const SearchStage stage : {SearchStage::kFirst, SearchStage::kDeep}) {
+    for (LinkHypothesis* h : {&right, &wrong}) {
+      h->stage = stage;
+      h->candidate.method = stage == SearchStage::kDeep ? CoarseMethod::kHeightMap : CoarseMethod::kImplied;
+    }
+    set_->add(0, 1, {right, wrong});
+    set_->score();
+  }
+  ASSERT_EQ(of(0, 1).size(), 4u);
+  set_->drop_unlikely_deep();
+  ASSERT_EQ(of(0, 1).size(), 2u);
+  EXPECT_EQ(of(0, 1)[0].candidate.method, CoarseMethod::kHeightMap);
+  EXPECT_EQ(of(0, 1)[1].candidate.method, CoarseMethod::kImplied) << "what speaks against the pose is kept";
 }
 
 TEST_F(HypothesisSetTest, TheGraphHasThePairsOfOpenScans) {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include "links/empty_hypotheses.hpp"
 #include "pipeline/prepared_scene.hpp"
 
@@ -40,27 +42,39 @@ TEST_F(PairFitsOfTwoScans, FitFromTheMostPromisingCandidateAndEndWhereItIsClear)
                                  s.scene.scans[1].points),
             0.25 * voxel_m)
       << "the start is no solution";
-  fits.fit({{0, 1}}, {{about(s, voxel_m, 2), about(s, 30 * voxel_m, 1)}}, true, set);
+  fits.fit({{0, 1}}, {{about(s, voxel_m, 2), about(s, 30 * voxel_m, 1)}}, SearchStage::kLater, set);
   ASSERT_EQ(fits.poses_of(0, 1).size(), 1U) << "a clear hypothesis ends the fits of a pair";
   EXPECT_LE(testing::pose_rmse_m(s.scene.T_target_source(0, 1), fits.poses_of(0, 1)[0], s.scene.scans[1].points),
             0.25 * voxel_m);
   ASSERT_EQ(set.pairs().at({0, 1}).size(), 1U);
-  EXPECT_TRUE(set.pairs().at({0, 1}).front().is_later);
+  EXPECT_TRUE(set.pairs().at({0, 1}).front().is_later());
 }
 
 TEST_F(PairFitsOfTwoScans, KnowWhichCandidatesWereLookedAt) {
   const double voxel_m = s.resolutions.coarse_m;
   const auto first = about(s, voxel_m, 2), other = about(s, 30 * voxel_m, 1);
   EXPECT_EQ(fits.untried(0, 1, {first, other}, voxel_m).size(), 2U) << "none was, yet";
-  fits.fit({{0, 1}}, {{first}}, true, set);
+  fits.fit({{0, 1}}, {{first}}, SearchStage::kLater, set);
   const auto left = fits.untried(0, 1, {about(s, 1.5 * voxel_m, 2), about(s, 2.5 * voxel_m, 2), other}, voxel_m);
   ASSERT_EQ(left.size(), 2U) << "the first lies within a voxel of the one that was";
   EXPECT_EQ(left[0].T_target_source.translation(), about(s, 2.5 * voxel_m, 2).T_target_source.translation());
   EXPECT_EQ(left[1].T_target_source.translation(), other.T_target_source.translation());
 }
 
+TEST_F(PairFitsOfTwoScans, KeepOfDeepCandidatesOnlyWhatIsLikelierRightThanWrong) {
+  const double voxel_m = s.resolutions.coarse_m;
+  PoseCandidate wrong = about(s, 0, 2);
+  wrong.T_target_source.rotate(Eigen::AngleAxisd(std::numbers::pi / 2, Eigen::Vector3d::UnitZ()));
+  fits.fit({{0, 1}}, {{wrong}}, SearchStage::kDeep, set);
+  ASSERT_EQ(fits.poses_of(0, 1).size(), 1U) << "it was fitted";
+  EXPECT_TRUE(set.pairs().at({0, 1}).empty());
+  fits.fit({{0, 1}}, {{about(s, voxel_m, 1)}}, SearchStage::kDeep, set);
+  ASSERT_EQ(set.pairs().at({0, 1}).size(), 1U);
+  EXPECT_GT(set.pairs().at({0, 1}).front().log_odds, 0);
+}
+
 TEST_F(PairFitsOfTwoScans, KnowAPairWithoutCandidatesAsCompared) {
-  fits.fit({{0, 1}}, {{}}, false, set);
+  fits.fit({{0, 1}}, {{}}, SearchStage::kFirst, set);
   EXPECT_TRUE(fits.poses_of(0, 1).empty());
   ASSERT_TRUE(set.pairs().contains({0, 1}));
   EXPECT_TRUE(set.pairs().at({0, 1}).empty());

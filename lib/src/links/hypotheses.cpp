@@ -45,12 +45,12 @@ HypothesisSet::HypothesisSet(double voxel_m, double noise_m, std::vector<PointMo
 void HypothesisSet::add(std::size_t a, std::size_t b, const std::vector<LinkHypothesis>& hypotheses) {
   std::vector<LinkHypothesis>& known = pairs_[{a, b}];
   for (const LinkHypothesis& h : hypotheses) {
-    const auto same = std::find_if(known.begin(), known.end(), [&](const LinkHypothesis& k) {
-      return rms_displacement(k.T_a_b.inverse() * h.T_a_b, moments_[b]) < fitted_m();
-    });
-    if (same == known.end()) {
-      known.push_back(h);
-    } else if (is_implied(*same) && !is_implied(h)) {
+    const auto same = std::find_if(known.begin(), known.end(), [&](const auto& k) { return is_same(b, k, h); });
+    const bool is_known = same != known.end() && (!is_implied(*same) || is_implied(h));
+    if (is_known) continue;
+    if (same == known.end() || h.stage == SearchStage::kDeep) {
+      known.push_back(h);  // whether a deep one stays beside or in place of an implied one is seen once it is scored
+    } else {
       *same = h;  // a search that was told nothing says more than a fit from where others put it, whichever came first
     }
   }
@@ -61,7 +61,7 @@ void HypothesisSet::score() {
   std::vector<LinkMeasurements> first;
   for (const auto& [pair, hypotheses] : pairs_) {
     for (const auto& h : hypotheses) {
-      if (!h.is_later) first.push_back(h.measurements);
+      if (!h.is_later()) first.push_back(h.measurements);
     }
   }
   const SetReference learnt = reference_;
@@ -77,6 +77,20 @@ void HypothesisSet::score() {
     std::stable_sort(hypotheses.begin(), hypotheses.end(),
                      [](const LinkHypothesis& x, const LinkHypothesis& y) { return x.log_odds > y.log_odds; });
   }
+}
+
+void HypothesisSet::drop_unlikely_deep() {
+  const auto is_deep = [](const LinkHypothesis& h) { return h.stage == SearchStage::kDeep; };
+  std::size_t dropped = 0;
+  for (auto& [pair, hypotheses] : pairs_) {
+    dropped += std::erase_if(hypotheses, [&](const auto& h) { return is_deep(h) && by_itself(h) < 0; });
+    const std::vector<LinkHypothesis> left = hypotheses;
+    dropped += std::erase_if(hypotheses, [&, b = pair.second](const auto& h) {
+      return is_implied(h) &&
+             std::any_of(left.begin(), left.end(), [&](const auto& k) { return is_deep(k) && is_same(b, k, h); });
+    });
+  }
+  if (dropped > 0) score();
 }
 
 bool HypothesisSet::learn_constants(const std::vector<Component>& components, const std::vector<std::vector<Cut>>& cuts,
@@ -95,8 +109,8 @@ bool HypothesisSet::learn_constants(const std::vector<Component>& components, co
         if (is_implied(h)) continue;  // agrees with poses right or wrong
         const bool right = rms_displacement((T[a]->inverse() * *T[b]).inverse() * h.T_a_b, moments_[b]) < same_m();
         const JudgedHypothesis judged{by_itself(h), right, sure};
-        (h.is_later ? later : first).push_back(judged);
-        if (!h.is_later) teachers_[pair].push_back(judged);
+        (h.is_later() ? later : first).push_back(judged);
+        if (!h.is_later()) teachers_[pair].push_back(judged);
       }
     }
   }
@@ -119,7 +133,7 @@ double HypothesisSet::log_odds(std::size_t a, std::size_t b) const {
 
 PoseHypothesis HypothesisSet::pose_of(const LinkHypothesis& h) const {
   const AlignmentEvidence& evidence = h.measurements.evidence;
-  const double taught = h.is_later ? 0 : reference_.constant;
+  const double taught = h.is_later() ? 0 : reference_.constant;
   return {h.T_a_b, h.log_odds, is_implied(h), evidence.overlap, weakest_left(evidence), taught};
 }
 

@@ -16,14 +16,23 @@
 
 namespace tcm_icp {
 
+/// What found a hypothesis.
+enum class SearchStage : char {
+  kFirst,  ///< the first search of the set, or poses that others imply
+  kLater,  ///< a search for scans that the first left without a clear place
+  kDeep,   ///< more of what searches found (kDeep), where their best left scans without one
+};
+
 /// A pose that a pair may have, after a fit.
 struct LinkHypothesis {
   Eigen::Isometry3d T_a_b = Eigen::Isometry3d::Identity();  ///< local frames
   PoseCandidate candidate;                                  ///< what the fit started from
   LinkMeasurements measurements;
-  bool is_later = false;         ///< found for a scan that the first search of the set left without a clear place
+  SearchStage stage = SearchStage::kFirst;
   double second_best_ratio = 0;  ///< SearchMeasurements::second_best_ratio
   double log_odds = 0;           ///< that it is right, by the pair and what its set usually shows
+
+  bool is_later() const { return stage != SearchStage::kFirst; }
 };
 
 /// What it measures, among the hypotheses of a set.
@@ -47,6 +56,11 @@ class HypothesisSet {
 
   /// Log-odds of all hypotheses anew: they are relative to one another. The likeliest of a pair comes first.
   void score();
+
+  /// Without the deep ones that are likelier wrong than right by themselves. So many are looked at for the one that
+  /// stands out; of the others so few are right that they say nothing but that it may lie anywhere. What is left takes
+  /// the place of implied ones of the same pose. @pre scored
+  void drop_unlikely_deep();
 
   /// Learns from the hypotheses that agree with `components`, and those that contradict them, how much likelier or
   /// unlikelier this set's are than those of other sets that look alike: a constant in the log-odds of those that the
@@ -86,17 +100,20 @@ class HypothesisSet {
       const std::vector<ComparedPair>& there) const;
 
  private:
+  bool is_same(std::size_t b, const LinkHypothesis& x, const LinkHypothesis& y) const {
+    return rms_displacement(x.T_a_b.inverse() * y.T_a_b, moments_[b]) < fitted_m();
+  }
   PoseHypothesis pose_of(const LinkHypothesis& h) const;
   PoseHypothesis pose_of(const MeasuredPose& measured) const;
 
   /// Log-odds in this set of a hypothesis with such log-odds by itself; and the other way round.
   double in_set(const LinkHypothesis& h, double by_itself) const {
-    return h.is_later ? reference_.later_constant + reference_.later_slope * by_itself
-                      : reference_.constant + by_itself;
+    return h.is_later() ? reference_.later_constant + reference_.later_slope * by_itself
+                        : reference_.constant + by_itself;
   }
   double by_itself(const LinkHypothesis& h) const {
-    return h.is_later ? (h.log_odds - reference_.later_constant) / reference_.later_slope
-                      : h.log_odds - reference_.constant;
+    return h.is_later() ? (h.log_odds - reference_.later_constant) / reference_.later_slope
+                        : h.log_odds - reference_.constant;
   }
 
   double voxel_m_, noise_m_;

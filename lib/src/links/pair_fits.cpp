@@ -28,7 +28,7 @@ PairFits::PairFits(const std::vector<PreparedScan>& scans, const LinkSearchOptio
                    const StepStore* store)
     : scans_(scans), options_(options), context_(context), store_(store) {}
 
-void PairFits::fit(const ScanPairs& pairs, const std::vector<std::vector<PoseCandidate>>& candidates, bool is_later,
+void PairFits::fit(const ScanPairs& pairs, const std::vector<std::vector<PoseCandidate>>& candidates, SearchStage stage,
                    HypothesisSet& set) {
   std::vector<std::vector<PoseCandidate>> queues(pairs.size());
   parallel_for(context_.num_threads, pairs.size(), [&](std::size_t begin, std::size_t end) {
@@ -58,7 +58,7 @@ void PairFits::fit(const ScanPairs& pairs, const std::vector<std::vector<PoseCan
     for (std::size_t i = 0; i < open.size(); ++i) {
       if (!found[i]) continue;
       const auto [a, b] = pairs[open[i]];
-      found[i]->is_later = is_later;
+      found[i]->stage = stage;
       fitted_[{a, b}].push_back(found[i]->T_a_b);
       if (!found[i]->measurements.free_space.vetoes()) ++num_fits[open[i]];
       set.add(a, b, {*found[i]});
@@ -73,6 +73,7 @@ void PairFits::fit(const ScanPairs& pairs, const std::vector<std::vector<PoseCan
     auto& known = tried_[pairs[k]];
     known.insert(known.end(), tried[k].begin(), tried[k].end());
   }
+  if (stage == SearchStage::kDeep) set.drop_unlikely_deep();
 }
 
 std::vector<PoseCandidate> PairFits::untried(std::size_t a, std::size_t b, std::vector<PoseCandidate> candidates,

@@ -27,8 +27,8 @@ class PairFits {
   /// The most promising candidate of every pair, then the next of pairs that have no clear hypothesis yet: what the set
   /// shows by then tells which have one. Hypotheses go to the set.
   /// @param candidates  of each pair
-  /// @param is_later    what is found comes after the set's first search (LinkHypothesis::is_later)
-  void fit(const ScanPairs& pairs, const std::vector<std::vector<PoseCandidate>>& candidates, bool is_later,
+  /// @param stage       of the candidates; of deep ones only hypotheses that are likelier right than wrong are left
+  void fit(const ScanPairs& pairs, const std::vector<std::vector<PoseCandidate>>& candidates, SearchStage stage,
            HypothesisSet& set);
 
   /// The most promising candidates of each pair until one is fitted, which the store keeps.

@@ -52,6 +52,8 @@ enum class Tried : char { kNothing, kHeightMaps, kFeatures, kSlides, kDeepHeight
 constexpr Tried kMethodsBefore[] = {Tried::kNothing, Tried::kHeightMaps, Tried::kFeatures, Tried::kSlides,
                                     Tried::kDeepHeightMaps};
 
+bool is_deep(Tried method) { return method == Tried::kDeepHeightMaps || method == Tried::kDeepFeatures; }
+
 Tried next(Tried before) { return static_cast<Tried>(static_cast<char>(before) + 1); }
 
 }  // namespace
@@ -200,9 +202,15 @@ struct PairSearch::Impl {
 
   /// Pairs that were tried by `before` by the method after it; false where that is left out.
   bool try_next(Tried before, const ScanPairs& pairs, bool is_later, HypothesisSet& set) {
-    const ScanPairs served = served_by(next(before), pairs);
-    if (!served.empty()) fits.fit(served, candidates(before, served, set.fitted_m()), is_later, set);
-    for (const auto& pair : pairs) tried[pair] = next(before);
+    const Tried method = next(before);
+    const ScanPairs served = served_by(method, pairs);
+    if (!served.empty()) {
+      const SearchStage stage = is_deep(method) ? SearchStage::kDeep
+                                : is_later      ? SearchStage::kLater
+                                                : SearchStage::kFirst;
+      fits.fit(served, candidates(before, served, set.fitted_m()), stage, set);
+    }
+    for (const auto& pair : pairs) tried[pair] = method;
     return !served.empty();
   }
 
@@ -210,7 +218,7 @@ struct PairSearch::Impl {
   /// that may agree by chance.
   ScanPairs served_by(Tried method, ScanPairs pairs) const {
     if (!uses(method)) return {};
-    if (method == Tried::kDeepHeightMaps || method == Tried::kDeepFeatures) {
+    if (is_deep(method)) {
       std::erase_if(pairs, [&](const auto& pair) {
         return !scans[pair.first].sight.sees_space() || !scans[pair.second].sight.sees_space();
       });
@@ -271,7 +279,7 @@ struct PairSearch::Impl {
       pairs.push_back(pair);
       candidates.push_back(std::move(found));
     }
-    if (!pairs.empty()) fits.fit(pairs, candidates, false, set);
+    if (!pairs.empty()) fits.fit(pairs, candidates, SearchStage::kFirst, set);
     return !pairs.empty();
   }
 };

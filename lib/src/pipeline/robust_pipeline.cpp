@@ -370,7 +370,7 @@ class RobustPipeline {
             for_raw_coordinates(h.candidate.T_target_source, in_.sampled[a].scan, in_.sampled[b].scan);
         record.evidence = h.measurements.evidence;
         record.free_space = h.measurements.free_space;
-        record.is_later = h.is_later;
+        record.is_later = h.is_later();
         record.log_odds = h.log_odds;
         record.features = features_of(h, hypotheses_->reference());
         if (both != settled_.end()) {
