@@ -25,7 +25,7 @@ class FeatureSearch {
                 const StepStore* store);
 
   /// Of each pair.
-  /// @param depth  kUsualDepth or kDeep
+  /// @param depth  kUsualDepth or kGreatDepth
   std::vector<std::vector<PoseCandidate>> candidates(const ScanPairs& pairs, int depth = kUsualDepth);
 
   /// How likely pairs overlap: scores of the best candidates by the first level alone, which tells that, too.

@@ -35,7 +35,7 @@ class HeightMapSearch {
   std::vector<HeightMapGrids> grids_of(const ScanPairs& pairs);
 
   /// Of each pair, on the grids of this set.
-  /// @param depth  kUsualDepth or kDeep
+  /// @param depth  kUsualDepth or kGreatDepth
   std::vector<std::vector<PoseCandidate>> candidates(const ScanPairs& pairs, int depth = kUsualDepth);
 
   /// The same on the grids of a larger set: those that are kept there; of the others a block at a time is searched and

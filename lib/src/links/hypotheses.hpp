@@ -20,7 +20,7 @@ namespace tcm_icp {
 enum class SearchStage : char {
   kFirst,  ///< the first search of the set, or poses that others imply
   kLater,  ///< a search for scans that the first left without a clear place
-  kDeep,   ///< more of what searches found (kDeep), where their best left scans without one
+  kDeep,   ///< more of what searches found (kGreatDepth), where their best left scans without one
 };
 
 /// A pose that a pair may have, after a fit.

@@ -241,10 +241,10 @@ struct PairSearch::Impl {
         return slides.candidates(pairs);
       case Tried::kSlides:
         context.report("comparing more of height maps", 0, pairs.size());
-        return untried(pairs, height_maps.candidates(pairs, kDeep), fitted_m);
+        return untried(pairs, height_maps.candidates(pairs, kGreatDepth), fitted_m);
       default:
         context.report("comparing more of features", 0, pairs.size());
-        return untried(pairs, features.candidates(pairs, kDeep), fitted_m);
+        return untried(pairs, features.candidates(pairs, kGreatDepth), fitted_m);
     }
   }
 

@@ -20,7 +20,7 @@ StepKey height_map_key(const PreparedScan& target, const PreparedScan& source, c
                        const HeightCorrelationOptions& screening, const HeightCorrelationOptions& full);
 /// Of the alignment that ranks a scan's partners.
 StepKey ranking_key(const PreparedScan& target, const PreparedScan& source, const LinkSearchOptions& options);
-/// @param depth  kUsualDepth or kDeep
+/// @param depth  kUsualDepth or kGreatDepth
 StepKey feature_key(const PreparedScan& target, const PreparedScan& source, const LinkSearchOptions& options,
                     int depth);
 StepKey slide_key(const PreparedScan& target, const PreparedScan& source, const std::vector<Eigen::Isometry3d>& from);

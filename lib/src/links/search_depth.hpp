@@ -5,6 +5,6 @@ namespace tcm_icp {
 
 /// Five of a pair; and how many times as many where these left a scan without a clear place: among equal rows, shelves
 /// or bays the right pose is one of dozens that look alike, which free space tells from the rest.
-constexpr int kUsualDepth = 1, kDeep = 4;
+constexpr int kUsualDepth = 1, kGreatDepth = 4;
 
 }  // namespace tcm_icp
