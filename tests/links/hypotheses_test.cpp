@@ -251,6 +251,8 @@ TEST_F(HypothesisSetTest, ADeepOneTakesThePlaceOfAnImpliedOneOnlyIfItIsLikely) {
     set_->score();
   }
   ASSERT_EQ(of(0, 1).size(), 4u);
+  set_->add(0, 1, {right});
+  ASSERT_EQ(of(0, 1).size(), 4u) << "beside an implied one, but once";
   set_->drop_unlikely_deep();
   ASSERT_EQ(of(0, 1).size(), 2u);
   EXPECT_EQ(of(0, 1)[0].candidate.method, CoarseMethod::kHeightMap);

@@ -32,6 +32,13 @@ bool is_implied(const LinkHypothesis& h) { return h.candidate.method == CoarseMe
 
 }  // namespace
 
+bool has_within(const std::vector<Eigen::Isometry3d>& known, const Eigen::Isometry3d& T_a_b, double distance_m,
+                const PointMoments& moments) {
+  return std::any_of(known.begin(), known.end(), [&](const Eigen::Isometry3d& T) {
+    return rms_displacement(T_a_b.inverse() * T, moments) < distance_m;
+  });
+}
+
 LinkFeatures features_of(const LinkHypothesis& h, const SetReference& set) {
   return link_features(h.measurements, SearchMeasurements{h.candidate.method, h.candidate.margin, h.second_best_ratio},
                        set);
@@ -45,12 +52,17 @@ HypothesisSet::HypothesisSet(double voxel_m, double noise_m, std::vector<PointMo
 void HypothesisSet::add(std::size_t a, std::size_t b, const std::vector<LinkHypothesis>& hypotheses) {
   std::vector<LinkHypothesis>& known = pairs_[{a, b}];
   for (const LinkHypothesis& h : hypotheses) {
-    const auto same = std::find_if(known.begin(), known.end(), [&](const auto& k) { return is_same(b, k, h); });
-    const bool is_known = same != known.end() && (!is_implied(*same) || is_implied(h));
-    if (is_known) continue;
-    if (same == known.end() || h.stage == SearchStage::kDeep) {
-      known.push_back(h);  // whether a deep one stays beside or in place of an implied one is seen once it is scored
-    } else {
+    const auto is_same = [&](const LinkHypothesis& k) {
+      return rms_displacement(k.T_a_b.inverse() * h.T_a_b, moments_[b]) < fitted_m();
+    };
+    const auto same = std::find_if(known.begin(), known.end(), is_same);
+    if (same == known.end()) {
+      known.push_back(h);
+    } else if (h.stage == SearchStage::kDeep) {
+      // Whether it stays beside or in place of an implied one is seen once it is scored.
+      if (std::none_of(same, known.end(), [&](const auto& k) { return !is_implied(k) && is_same(k); }))
+        known.push_back(h);
+    } else if (is_implied(*same) && !is_implied(h)) {
       *same = h;  // a search that was told nothing says more than a fit from where others put it, whichever came first
     }
   }
@@ -84,10 +96,12 @@ void HypothesisSet::drop_unlikely_deep() {
   std::size_t dropped = 0;
   for (auto& [pair, hypotheses] : pairs_) {
     dropped += std::erase_if(hypotheses, [&](const auto& h) { return is_deep(h) && by_itself(h) < 0; });
-    const std::vector<LinkHypothesis> left = hypotheses;
+    std::vector<Eigen::Isometry3d> left;
+    for (const auto& h : hypotheses) {
+      if (is_deep(h)) left.push_back(h.T_a_b);
+    }
     dropped += std::erase_if(hypotheses, [&, b = pair.second](const auto& h) {
-      return is_implied(h) &&
-             std::any_of(left.begin(), left.end(), [&](const auto& k) { return is_deep(k) && is_same(b, k, h); });
+      return is_implied(h) && has_within(left, h.T_a_b, fitted_m(), moments_[b]);
     });
   }
   if (dropped > 0) score();

@@ -35,6 +35,10 @@ struct LinkHypothesis {
   bool is_later() const { return stage != SearchStage::kFirst; }
 };
 
+/// Whether one of the poses is nearer than `distance_m` (rms over the scan that the moments are of).
+bool has_within(const std::vector<Eigen::Isometry3d>& known, const Eigen::Isometry3d& T_a_b, double distance_m,
+                const PointMoments& moments);
+
 /// What it measures, among the hypotheses of a set.
 LinkFeatures features_of(const LinkHypothesis& h, const SetReference& set);
 
@@ -100,9 +104,6 @@ class HypothesisSet {
       const std::vector<ComparedPair>& there) const;
 
  private:
-  bool is_same(std::size_t b, const LinkHypothesis& x, const LinkHypothesis& y) const {
-    return rms_displacement(x.T_a_b.inverse() * y.T_a_b, moments_[b]) < fitted_m();
-  }
   PoseHypothesis pose_of(const LinkHypothesis& h) const;
   PoseHypothesis pose_of(const MeasuredPose& measured) const;
 

@@ -17,13 +17,6 @@ constexpr int kMaxFits = 3;
 
 }  // namespace
 
-bool has_within(const std::vector<Eigen::Isometry3d>& known, const Eigen::Isometry3d& T_a_b, double distance_m,
-                const PointMoments& moments) {
-  return std::any_of(known.begin(), known.end(), [&](const Eigen::Isometry3d& T) {
-    return rms_displacement(T_a_b.inverse() * T, moments) < distance_m;
-  });
-}
-
 PairFits::PairFits(const std::vector<PreparedScan>& scans, const LinkSearchOptions& options, const RunContext& context,
                    const StepStore* store)
     : scans_(scans), options_(options), context_(context), store_(store) {}

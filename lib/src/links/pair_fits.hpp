@@ -13,10 +13,6 @@
 
 namespace tcm_icp {
 
-/// Whether one of the poses is nearer than `distance_m` (rms over the scan that the moments are of).
-bool has_within(const std::vector<Eigen::Isometry3d>& known, const Eigen::Isometry3d& T_a_b, double distance_m,
-                const PointMoments& moments);
-
 class PairFits {
  public:
   /// Keeps references: all must outlive this.
