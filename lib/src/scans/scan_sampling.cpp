@@ -18,6 +18,7 @@
 #include "tcm_icp/core/voxel_sampler.hpp"
 #include "tcm_icp/io/scan_path.hpp"
 #include "tcm_icp/io/scan_reader.hpp"
+#include "tcm_icp/visibility/viewpoint_by_lines.hpp"
 
 namespace tcm_icp {
 namespace {
@@ -193,7 +194,6 @@ SampledScan sample_scan(const ScanInput& input, const SamplingOptions& sampling,
   }
   if (detail == ScanDetail::kPoints) return out;
   if (detail == ScanDetail::kViewpointClues) {
-    out.clues.line_pieces = find_line_pieces(scan.cloud.points, index);
     Rng for_densities = make_stream(seed, "point densities", stream_key(scan));
     out.clues.densities = sample_densities(scan.cloud.points, counts, index, for_densities);
   }
@@ -207,6 +207,10 @@ SampledScan sample_scan(const ScanInput& input, const SamplingOptions& sampling,
     out.is_surface.push_back(estimate.variation[i] > sampling.max_surface_variation ? 0 : 1);
   }
   scan.cloud.normals = std::move(estimate.normals);
+  if (detail == ScanDetail::kViewpointClues) {
+    Rng for_lines = make_stream(seed, "scan lines", stream_key(scan));
+    out.clues.by_lines = find_viewpoint_by_lines(scan.cloud, index, for_lines);
+  }
   return out;
 }
 

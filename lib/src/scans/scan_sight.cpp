@@ -13,8 +13,7 @@ std::optional<Viewpoint> find_viewpoint_of(const SampledScan& sampled, std::uint
   const Scan& scan = sampled.scan;
   // Scan lines tell it sharply, where there are any, density nearly so, and both also outdoors, where little hides
   // behind anything.
-  Rng for_lines = make_stream(seed, "scan lines", stream_key(scan));
-  if (auto found = find_viewpoint_by_lines(scan.cloud, sampled.clues.line_pieces, for_lines)) return found;
+  if (sampled.clues.by_lines) return sampled.clues.by_lines;
   Rng for_density = make_stream(seed, "point density", stream_key(scan));
   auto by_density = find_viewpoint_by_density(scan.cloud, sampled.clues.densities, for_density);
   if (by_density && by_density->determined()) return by_density;

@@ -27,22 +27,10 @@ void transfer(Record& record, T& value) {
   record(keeps_all, centroids, threshold_m, voxels, voxel_size_m, summary);
 }
 
-template <typename Record, MaybeConst<LinePieces> T>
-void transfer(Record& record, T& value) {
-  auto& [middles, directions] = value;
-  record(middles, directions);
-}
-
 template <typename Record, MaybeConst<DensitySamples> T>
 void transfer(Record& record, T& value) {
   auto& [points, normals, log_area] = value;
   record(points, normals, log_area);
-}
-
-template <typename Record, MaybeConst<ViewpointClues> T>
-void transfer(Record& record, T& value) {
-  auto& [line_pieces, densities] = value;
-  record(line_pieces, densities);
 }
 
 template <typename Record, MaybeConst<Cloud> T>
@@ -62,6 +50,12 @@ template <typename Record, MaybeConst<Viewpoint> T>
 void transfer(Record& record, T& value) {
   auto& [place, hidden_share, radius_m, extent_m, alternatives, evidence, line_share, allowed] = value;
   record(place, hidden_share, radius_m, extent_m, alternatives, evidence, line_share, allowed);
+}
+
+template <typename Record, MaybeConst<ViewpointClues> T>
+void transfer(Record& record, T& value) {
+  auto& [by_lines, densities] = value;
+  record(by_lines, densities);
 }
 
 template <typename Record>

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "core/decompositions.hpp"
 
@@ -14,16 +15,27 @@ namespace {
 using Step = Eigen::Matrix<double, 5, 1>;  // centre, axis across itself
 using Information = Eigen::Matrix<double, 5, 5>;
 
-// Geman-McClure's scale shrinks from the residuals of a start to those of good pieces.
-constexpr double kFirstScale = 0.2, kLastScale = 0.01, kShrink = 0.85;
-constexpr int kSteps = 25;
+// Geman-McClure's scale shrinks to the residuals of good pieces.
+constexpr double kLastScale = 0.01, kShrink = 0.85;
+constexpr int kMostSteps = 25;
+constexpr double kLastStep = 1e-5;  // of the centre, in units of the frame
 constexpr double kDamping = 1e-9;
+constexpr double kLeastSlope = 0.1;  // sine of the angle between the plane and the cone
 
 Eigen::Matrix<double, 3, 2> across(const Eigen::Vector3d& axis) {
   Eigen::Matrix<double, 3, 2> basis;
   basis.col(0) = axis.unitOrthogonal();
   basis.col(1) = axis.cross(basis.col(0));
   return basis;
+}
+
+// In the plane of the points, at a right angle to the row that a beam at r from the centre draws there: so pieces that
+// are off by chance are so to either side, whatever the centre. Nothing where the cone touches the plane.
+std::optional<Eigen::Vector3d> across_row(const Sweep& sweep, const Eigen::Vector3d& r, const Eigen::Vector3d& normal) {
+  const Eigen::Vector3d n = sweep.axis * r.squaredNorm() - r * sweep.axis.dot(r);
+  const Eigen::Vector3d along_plane = n - normal * normal.dot(n);
+  if (!(along_plane.squaredNorm() > kLeastSlope * kLeastSlope * n.squaredNorm())) return std::nullopt;
+  return along_plane;
 }
 
 struct Normals {
@@ -40,11 +52,10 @@ Normals normal_equations(const Sweep& sweep, const LinePieces& pieces, std::size
     const Eigen::Vector3d r = pieces.middles[i] - sweep.centre;
     const Eigen::Vector3d& t = pieces.directions[i];
     const double along = a.dot(r), square = r.squaredNorm();
-    const Eigen::Vector3d n = a * square - r * along;
-    const double length = n.norm();
-    if (!(length > 0)) continue;
-    const double e = t.dot(n) / length;
-    const Eigen::Vector3d g = (t - e / length * n) / length;  // of e, by n
+    const std::optional<Eigen::Vector3d> n = across_row(sweep, r, pieces.normals[i]);
+    if (!n) continue;
+    const double length = n->norm(), e = t.dot(*n) / length;
+    const Eigen::Vector3d g = (t - e / length * *n) / length;  // of e, by n; along the plane, as t is
     Step slope;
     slope.head<3>() = -(2 * g.dot(a) * r - along * g - g.dot(r) * a);
     slope.tail<2>() = basis.transpose() * (square * g - g.dot(r) * r);
@@ -63,45 +74,53 @@ Normals normal_equations(const Sweep& sweep, const LinePieces& pieces, std::size
 
 }  // namespace
 
-double sweep_residual(const Sweep& sweep, const Eigen::Vector3d& middle, const Eigen::Vector3d& direction) {
-  const Eigen::Vector3d r = middle - sweep.centre;
-  const Eigen::Vector3d n = sweep.axis * r.squaredNorm() - r * sweep.axis.dot(r);
-  const double length = n.norm();
-  return length > 0 ? direction.dot(n) / length : 1;
+std::optional<double> sweep_residual(const Sweep& sweep, const LinePieces& pieces, std::size_t i) {
+  const auto n = across_row(sweep, pieces.middles[i] - sweep.centre, pieces.normals[i]);
+  if (!n) return std::nullopt;
+  return pieces.directions[i].dot(*n) / n->norm();
 }
 
-double share_of_sweep(const Sweep& sweep, const LinePieces& pieces, double tolerance, std::size_t stride) {
-  std::size_t good = 0, all = 0;
-  for (std::size_t i = 0; i < pieces.middles.size(); i += stride) {
-    ++all;
-    good += std::abs(sweep_residual(sweep, pieces.middles[i], pieces.directions[i])) < tolerance ? 1 : 0;
+SweepSupport support_of_sweep(const Sweep& sweep, const LinePieces& pieces, double tolerance) {
+  SweepSupport support;
+  for (std::size_t i = 0; i < pieces.middles.size(); ++i) {
+    const std::optional<double> off_row = sweep_residual(sweep, pieces, i);
+    if (!off_row) continue;
+    const Eigen::Vector3d off_plane = sweep.axis.cross(pieces.middles[i] - sweep.centre).stableNormalized();
+    if (std::abs(*off_row) < tolerance) {
+      ++support.rows;
+    } else if (!(std::abs(pieces.directions[i].dot(off_plane)) < tolerance)) {
+      ++support.others;
+    }
   }
-  return all == 0 ? 0 : static_cast<double>(good) / static_cast<double>(all);
+  return support;
 }
 
-Eigen::Vector3d likely_axis(const LinePieces& pieces) {
+Eigen::Vector3d likely_axis(const Eigen::Vector3d& centre, const LinePieces& pieces) {
   Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
-  for (const auto& t : pieces.directions) sum += t * t.transpose();
+  for (std::size_t i = 0; i < pieces.middles.size(); ++i) {
+    const Eigen::Vector3d ray = (pieces.middles[i] - centre).stableNormalized();
+    const Eigen::Vector3d t = pieces.directions[i] - ray * ray.dot(pieces.directions[i]);
+    sum += t * t.transpose();
+  }
   return symmetric_eigen3(sum).vectors.col(0);
 }
 
-Sweep fit_sweep(const Sweep& start, const LinePieces& pieces, std::size_t stride) {
+Sweep fit_sweep(const Sweep& start, const LinePieces& pieces, std::size_t stride, double scale) {
   Sweep sweep = start;
   sweep.sigma = std::numeric_limits<double>::infinity();
-  double scale = kFirstScale;
-  for (int k = 0; k < kSteps; ++k, scale = std::max(kLastScale, kShrink * scale)) {
+  for (int k = 0; k < kMostSteps; ++k, scale = std::max(kLastScale, kShrink * scale)) {
     Normals sum = normal_equations(sweep, pieces, stride, scale);
     sum.information.diagonal().array() += kDamping * sum.information.trace();
     const Eigen::LDLT<Information> solver(sum.information);
     const Step step = solver.solve(sum.gradient);
     if (!step.allFinite() || !(sum.weight > 5)) return start;
-    if (k + 1 == kSteps) {
-      const Information covariance = sum.square / (sum.weight - 5) * solver.solve(Information::Identity());
-      const Eigen::Matrix3d of_centre = covariance.topLeftCorner<3, 3>();
-      sweep.sigma = std::sqrt(symmetric_eigen3(of_centre).values[2]);
-    }
     sweep.centre -= step.head<3>();
     sweep.axis = (sweep.axis - across(sweep.axis) * step.tail<2>()).normalized();
+    if (k + 1 < kMostSteps && !(scale == kLastScale && step.head<3>().norm() < kLastStep)) continue;
+    const Information covariance = sum.square / (sum.weight - 5) * solver.solve(Information::Identity());
+    const Eigen::Matrix3d of_centre = covariance.topLeftCorner<3, 3>();
+    sweep.sigma = std::sqrt(symmetric_eigen3(of_centre).values[2]);
+    break;
   }
   return sweep;
 }

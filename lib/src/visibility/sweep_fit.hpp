@@ -3,8 +3,9 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <optional>
 
-#include "tcm_icp/visibility/scan_lines.hpp"
+#include "line_pieces.hpp"
 
 namespace tcm_icp {
 
@@ -14,17 +15,27 @@ struct Sweep {
   double sigma = 0;  ///< standard deviation of the centre in its weakest direction
 };
 
-/// Sine of the angle between the piece and the cone of the sweep that meets it: 0 for pieces of its lines.
-double sweep_residual(const Sweep& sweep, const Eigen::Vector3d& middle, const Eigen::Vector3d& direction);
+/// Sine of the angle, along its plane, between the i-th piece and the sweep's line through its middle; nothing where
+/// that has no direction.
+std::optional<double> sweep_residual(const Sweep& sweep, const LinePieces& pieces, std::size_t i);
 
-/// Share of the pieces, one in `stride` of them, with a residual below `tolerance`.
-double share_of_sweep(const Sweep& sweep, const LinePieces& pieces, double tolerance, std::size_t stride);
+/// What pieces say of a sweep.
+struct SweepSupport {
+  std::size_t rows = 0;    ///< along lines about its axis
+  std::size_t others = 0;  ///< neither along those nor in planes through the axis
 
-/// The direction that lines have least of: the axis where they run around it over ground, whichever way is up.
-Eigen::Vector3d likely_axis(const LinePieces& pieces);
+  double share() const { return rows == 0 ? 0 : static_cast<double>(rows) / static_cast<double>(rows + others); }
+};
 
-/// Gauss-Newton from a start that is a few tenths off, one in `stride` of the pieces. O(pieces / stride), some 25
-/// times.
-Sweep fit_sweep(const Sweep& start, const LinePieces& pieces, std::size_t stride);
+/// @param tolerance  sine of the angle that pieces may be off
+SweepSupport support_of_sweep(const Sweep& sweep, const LinePieces& pieces, double tolerance);
+
+/// The axis of most of the pieces, as seen from the centre: rows about it are at a right angle to it on the sphere of
+/// directions.
+Eigen::Vector3d likely_axis(const Eigen::Vector3d& centre, const LinePieces& pieces);
+
+/// Gauss-Newton with Geman-McClure's weights, one in `stride` of the pieces. O(pieces / stride), some 25 times.
+/// @param scale  that the weights begin with: about the residuals of the start
+Sweep fit_sweep(const Sweep& start, const LinePieces& pieces, std::size_t stride, double scale);
 
 }  // namespace tcm_icp
