@@ -20,8 +20,7 @@ constexpr float kMaxWidth = 0.05F;
 constexpr double kFlattestRay = 0.05;
 
 struct FlatPiece {
-  float x, y;    ///< its middle
-  double angle;  ///< of its direction with the first axis
+  Eigen::Vector2d middle, direction;  ///< on the plane
 };
 
 // Moved along rays to the plane; false where a point lies beyond the place that it was seen from.
@@ -73,7 +72,10 @@ std::optional<FlatPiece> find_piece(const FlatPatch& patch, const Eigen::Vector3
   }
   const float middle = (xx + yy) / 2, off = std::sqrt((xx - yy) * (xx - yy) / 4 + xy * xy);
   if (!(middle - off < kMaxWidth * kMaxWidth * (middle + off))) return std::nullopt;
-  return FlatPiece{mean_x, mean_y, std::atan2(2.0 * xy, static_cast<double>(xx - yy)) / 2};
+  // Of the two ways to write the longer axis the one that does not vanish.
+  const Eigen::Vector2f along =
+      xx > yy ? Eigen::Vector2f(middle + off - yy, xy) : Eigen::Vector2f(xy, middle + off - xx);
+  return FlatPiece{Eigen::Vector2d(mean_x, mean_y), along.cast<double>().normalized()};
 }
 
 }  // namespace
@@ -118,9 +120,9 @@ LinePieces find_line_pieces(const std::vector<FlatPatch>& patches, const Eigen::
     const FlatPatch& patch = patches[i];
     const std::optional<FlatPiece> piece = find_piece(patch, from);
     if (!piece) continue;
-    const Eigen::Vector3d along = patch.axes.col(0), across = patch.axes.col(1);
-    pieces.middles.push_back(patch.middle + piece->x * along + piece->y * across);
-    pieces.directions.push_back(std::cos(piece->angle) * along + std::sin(piece->angle) * across);
+    const auto plane = patch.axes.leftCols<2>();
+    pieces.middles.push_back(patch.middle + plane * piece->middle);
+    pieces.directions.push_back(plane * piece->direction);
     pieces.normals.push_back(patch.axes.col(2));
   }
   return pieces;

@@ -18,11 +18,11 @@ constexpr double kStartPlaces = 4000;
 constexpr std::size_t kGridPatches = 100, kFitPatches = 1000, kFitPieces = 2000;
 constexpr std::size_t kStarts = 12, kKept = 4;
 constexpr int kRounds = 12;
-constexpr double kLastMove = 0.0002;
+constexpr double kLastMove = 0.0002, kMostOfLast = 0.9;
 
-// Angles of pieces with lines. Sweeps of a scanner that moves are bent by up to 0.1. From a place of the grid lines are
-// off by a few tenths; Geman-McClure's scale begins there.
-constexpr double kTolerance = 0.1, kGridTolerance = 0.2;
+// Angles of pieces with lines. Of places those are compared that come close; sweeps of a scanner that moves are bent by
+// up to 0.1. From a place of the grid lines are off by a few tenths; Geman-McClure's scale begins there.
+constexpr double kCloseTolerance = 0.02, kTolerance = 0.1, kGridTolerance = 0.2;
 constexpr double kGridScale = 0.2, kFittedScale = 0.03;
 constexpr double kRivalDistance = 0.06;
 
@@ -64,15 +64,22 @@ Candidate fitted(Candidate from, const std::vector<FlatPatch>& patches, std::siz
   from.sweep.axis = likely_axis(from.sweep.centre, pieces);
   Candidate to;
   to.sweep = fit_sweep(from.sweep, pieces, stride_for(pieces.middles.size(), kFitPieces), scale);
-  to.support = support_of_sweep(to.sweep, find_line_pieces(patches, to.sweep.centre, stride), kTolerance);
+  to.support = support_of_sweep(to.sweep, find_line_pieces(patches, to.sweep.centre, stride), kCloseTolerance);
   return to;
 }
 
+// Along the axis each round may move by a part of what is left alone: two equal parts tell all that is (Aitken).
 void settle(Candidate& at, const std::vector<FlatPatch>& patches, std::size_t stride) {
+  Eigen::Vector3d last = Eigen::Vector3d::Zero();
   for (int round = 0; round < kRounds; ++round) {
     const Eigen::Vector3d before = at.sweep.centre;
     at = fitted(at, patches, stride, kFittedScale);
-    if ((at.sweep.centre - before).norm() < kLastMove) break;
+    const Eigen::Vector3d move = at.sweep.centre - before;
+    if (move.norm() < kLastMove) break;
+    const double share = last.isZero() ? 0 : move.dot(last) / last.squaredNorm();
+    const bool goes_on = share > 0 && share < kMostOfLast && round + 1 < kRounds;
+    if (goes_on) at.sweep.centre += share / (1 - share) * move;
+    last = goes_on ? Eigen::Vector3d(0, 0, 0) : move;
   }
 }
 
@@ -106,13 +113,13 @@ std::optional<Viewpoint> find_viewpoint_by_lines(const Cloud& cloud, const Neigh
 
   Candidate& best = found.front();
   settle(best, patches, 1);
-  if (!box.contains(best.sweep.centre) || best.support.rows < kMinPieces || best.support.share() < kMinShare) {
-    return std::nullopt;
-  }
+  const SweepSupport support =
+      support_of_sweep(best.sweep, find_line_pieces(patches, best.sweep.centre, 1), kTolerance);
+  if (!box.contains(best.sweep.centre) || support.rows < kMinPieces || support.share() < kMinShare) return std::nullopt;
   Viewpoint out;
   out.evidence = ViewpointEvidence::kScanLines;
   out.place = frame->from_axes(best.sweep.centre);
-  out.line_share = best.support.share();
+  out.line_share = support.share();
   out.radius_m = kSigmas * best.sweep.sigma * frame->unit_m;
   out.extent_m = frame->unit_m;
   if (!out.determined()) return std::nullopt;
