@@ -83,17 +83,18 @@ void settle(Candidate& at, const std::vector<FlatPatch>& patches, std::size_t st
   }
 }
 
-}  // namespace
+bool has_rival(const std::vector<Candidate>& found) {
+  const Candidate& best = found.front();
+  return std::any_of(found.begin(), found.end(), [&](const Candidate& c) {
+    const bool is_elsewhere = (c.sweep.centre - best.sweep.centre).norm() > kRivalDistance;
+    return is_elsewhere &&
+           static_cast<double>(c.support.rows) > kMaxRivalShare * static_cast<double>(best.support.rows);
+  });
+}
 
-std::optional<Viewpoint> find_viewpoint_by_lines(const Cloud& cloud, const NeighborIndex& index, Rng& rng) {
-  const std::optional<UnitFrame> frame = find_unit_frame(cloud, kFramePoints, kMinFramePoints, rng);
-  if (!frame) return std::nullopt;
-  const std::vector<FlatPatch> patches = find_flat_patches(cloud.points, index, *frame);
-  if (patches.size() < kMinPieces) return std::nullopt;
-  const Eigen::AlignedBox3d box = search_box(frame->box).cast<double>();
-
-  std::vector<Candidate> found;
+std::optional<Sweep> find_sweep(const std::vector<FlatPatch>& patches, const Eigen::AlignedBox3d& box) {
   const std::size_t stride = stride_for(patches.size(), kFitPatches);
+  std::vector<Candidate> found;
   for (const Candidate& start : search_grid_of_centres(patches, box)) {
     const Candidate to = fitted(start, patches, stride, kGridScale);
     if (box.contains(to.sweep.centre)) found.push_back(to);
@@ -102,25 +103,30 @@ std::optional<Viewpoint> find_viewpoint_by_lines(const Cloud& cloud, const Neigh
   found = first_apart(found, kKept, kRivalDistance, [](const Candidate& c) { return c.sweep.centre; });
   for (Candidate& c : found) settle(c, patches, stride);
   sort_by_support(found);
-  if (found.empty()) return std::nullopt;
-  std::size_t rival = 0;
-  for (const Candidate& c : found) {
-    const bool is_elsewhere = (c.sweep.centre - found.front().sweep.centre).norm() > kRivalDistance;
-    if (is_elsewhere) rival = std::max(rival, c.support.rows);
-  }
-  const auto most = static_cast<double>(found.front().support.rows);
-  if (static_cast<double>(rival) > kMaxRivalShare * most) return std::nullopt;
+  if (found.empty() || has_rival(found)) return std::nullopt;
+  settle(found.front(), patches, 1);
+  if (!box.contains(found.front().sweep.centre)) return std::nullopt;
+  return found.front().sweep;
+}
 
-  Candidate& best = found.front();
-  settle(best, patches, 1);
-  const SweepSupport support =
-      support_of_sweep(best.sweep, find_line_pieces(patches, best.sweep.centre, 1), kTolerance);
-  if (!box.contains(best.sweep.centre) || support.rows < kMinPieces || support.share() < kMinShare) return std::nullopt;
+}  // namespace
+
+std::optional<Viewpoint> find_viewpoint_by_lines(const Cloud& cloud, const NeighborIndex& index, Rng& rng) {
+  const std::optional<UnitFrame> frame = find_unit_frame(cloud, kFramePoints, kMinFramePoints, rng);
+  if (!frame) return std::nullopt;
+  const std::vector<FlatPatch> patches = find_flat_patches(cloud.points, index, *frame);
+  if (patches.size() < kMinPieces) return std::nullopt;
+  const std::optional<Sweep> sweep = find_sweep(patches, search_box(frame->box).cast<double>());
+  if (!sweep) return std::nullopt;
+  const LinePieces pieces = find_line_pieces(patches, sweep->centre, 1);
+  const SweepSupport support = support_of_sweep(*sweep, pieces, kTolerance);
+  if (support.rows < kMinPieces || support.share() < kMinShare) return std::nullopt;
+
   Viewpoint out;
   out.evidence = ViewpointEvidence::kScanLines;
-  out.place = frame->from_axes(best.sweep.centre);
+  out.place = frame->from_axes(sweep->centre);
   out.line_share = support.share();
-  out.radius_m = kSigmas * best.sweep.sigma * frame->unit_m;
+  out.radius_m = kSigmas * sweep->sigma * frame->unit_m;
   out.extent_m = frame->unit_m;
   if (!out.determined()) return std::nullopt;
   return out;
