@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "support/box_room.hpp"
 #include "support/matchers.hpp"
+#include "support/room_scans.hpp"
 #include "support/synthetic_scene.hpp"
 #include "tcm_icp/core/rigid_transform.hpp"
 #include "tcm_icp/core/statistics.hpp"
@@ -15,33 +15,18 @@
 namespace tcm_icp {
 namespace {
 
-using Eigen::AngleAxisd;
-using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
-const Vector3d kStation(2.9, 2.4, 1.5);
-const Quaterniond kTripodTilt(AngleAxisd(0.1, Vector3d(1, 2, 0).normalized()));
+const Vector3d kStation = testing::spinner();
 
 // A tripod scanner: equal steps in azimuth and elevation, but for the cone below.
 Points rays_of_tripod_scanner(double step_deg = 0.75) {
-  Points rays;
-  for (double elevation_deg = -60; elevation_deg <= 80; elevation_deg += step_deg) {
-    for (double azimuth_deg = 0; azimuth_deg < 360; azimuth_deg += step_deg) {
-      const double e = elevation_deg * EIGEN_PI / 180, a = azimuth_deg * EIGEN_PI / 180;
-      rays.push_back(kTripodTilt * Vector3d(std::cos(e) * std::cos(a), std::cos(e) * std::sin(a), std::sin(e)));
-    }
-  }
-  return rays;
-}
-
-Cloud with_noise(Cloud cloud, const Vector3d& from, double sigma_m) {
-  Rng rng = make_stream(2, "point_density_test noise");
-  for (auto& p : cloud.points) p += sigma_m * standard_normal(rng) * (p - from).normalized();
-  return cloud;
+  return testing::rays_of_steps(testing::tilted(), step_deg, step_deg, -60, 80 + step_deg / 2);
 }
 
 Cloud tripod_scan(const Vector3d& from = kStation) {
-  return with_noise(testing::scan_room(testing::furnished_room(), from, rays_of_tripod_scanner()), from, 0.002);
+  return testing::with_range_noise(testing::scan_room(testing::furnished_room(), from, rays_of_tripod_scanner()), from,
+                                   0.002);
 }
 
 DensitySamples densities_of(const Points& points, const std::vector<float>& counts) {
@@ -182,7 +167,8 @@ TEST(ViewpointByDensity, IsOnTheSideOfTheFloorFromWhichNothingIsHidden) {
   testing::BoxRoom yard = testing::furnished_room();
   yard.walls = Eigen::AlignedBox3d(Vector3d(-12, -12, 0), Vector3d(20, 18, 50));
   Cloud scan;
-  const Cloud all = with_noise(testing::scan_room(yard, kStation, rays_of_tripod_scanner(0.5)), kStation, 0.002);
+  const Cloud all =
+      testing::with_range_noise(testing::scan_room(yard, kStation, rays_of_tripod_scanner(0.5)), kStation, 0.002);
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (all.points[i].z() > 3) continue;
     scan.points.push_back(all.points[i]);

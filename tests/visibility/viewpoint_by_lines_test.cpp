@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "support/matchers.hpp"
-#include "support/spinning_scan.hpp"
+#include "support/room_scans.hpp"
 #include "support/synthetic_scene.hpp"
 #include "tcm_icp/core/rigid_transform.hpp"
 #include "tcm_icp/core/voxel_sampler.hpp"
@@ -53,10 +53,22 @@ TEST(ViewpointByLines, NoiseOfRangesHidesItNot) {
 TEST(ViewpointByLines, OfEqualStepsBothWays) {
   for (const Vector3d& from : kPlaces) {
     for (const double noise_m : {0.0, 0.003, 0.02}) {
-      const Cloud scan = testing::scan_room(testing::furnished_room(), from, testing::rays_of_equal_steps(tilted()));
+      const Cloud scan =
+          testing::scan_room(testing::furnished_room(), from, testing::rays_of_steps(tilted(), 0.6, 0.6));
       const auto found = find_by_lines(testing::with_range_noise(scan, from, noise_m));
       ASSERT_TRUE(found) << from.transpose() << ", noise " << noise_m;
       EXPECT_LT((found->place - from).norm(), 0.02) << from.transpose() << ", noise " << noise_m;
+    }
+  }
+}
+
+// A tripod scanner whose mirror turns about a level axis: its lines run up and down, through one vertical axis.
+TEST(ViewpointByLines, VerticalProfilesGiveNoWrongOne) {
+  const Points rays = testing::rays_of_steps(tilted(), 1.5, 0.3, -50, 70);
+  for (const Vector3d& from : kPlaces) {
+    const auto found = find_by_lines(testing::scan_room(testing::furnished_room(), from, rays));
+    if (found) {
+      EXPECT_LT((found->place - from).norm(), 0.05) << from.transpose();
     }
   }
 }

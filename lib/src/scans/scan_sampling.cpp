@@ -193,10 +193,6 @@ SampledScan sample_scan(const ScanInput& input, const SamplingOptions& sampling,
     scan.coverage_m = coverage_m(VoxelOctaves(scan.cloud.points, out.middle, kFinestShare * scan.extent_m));
   }
   if (detail == ScanDetail::kPoints) return out;
-  if (detail == ScanDetail::kViewpointClues) {
-    Rng for_densities = make_stream(seed, "point densities", stream_key(scan));
-    out.clues.densities = sample_densities(scan.cloud.points, counts, index, for_densities);
-  }
   NormalEstimate estimate = normals_of_surfaces(scan, index, num_threads);
   std::vector<double> roughness;
   for (std::size_t i = 0; i < estimate.normals.size(); ++i) {
@@ -208,6 +204,8 @@ SampledScan sample_scan(const ScanInput& input, const SamplingOptions& sampling,
   }
   scan.cloud.normals = std::move(estimate.normals);
   if (detail == ScanDetail::kViewpointClues) {
+    Rng for_densities = make_stream(seed, "point densities", stream_key(scan));
+    out.clues.densities = sample_densities(scan.cloud.points, counts, index, for_densities);
     Rng for_lines = make_stream(seed, "scan lines", stream_key(scan));
     out.clues.by_lines = find_viewpoint_by_lines(scan.cloud, index, for_lines);
   }

@@ -108,12 +108,6 @@ std::vector<FlatPatch> find_flat_patches(const Points& points, const NeighborInd
   return patches;
 }
 
-std::size_t count_line_pieces(const std::vector<FlatPatch>& patches, const Eigen::Vector3d& from, std::size_t stride) {
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < patches.size(); i += stride) count += find_piece(patches[i], from) ? 1 : 0;
-  return count;
-}
-
 LinePieces find_line_pieces(const std::vector<FlatPatch>& patches, const Eigen::Vector3d& from, std::size_t stride) {
   LinePieces pieces;
   for (std::size_t i = 0; i < patches.size(); i += stride) {

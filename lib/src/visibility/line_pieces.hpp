@@ -33,11 +33,8 @@ struct FlatPatch {
 /// Cost: a query of 40 neighbours a point, 30 ms.
 std::vector<FlatPatch> find_flat_patches(const Points& points, const NeighborIndex& index, const UnitFrame& frame);
 
-/// How many of the patches, one in `stride` of them, show points in a row once each point is moved along its ray from
-/// `from` to the plane.
-std::size_t count_line_pieces(const std::vector<FlatPatch>& patches, const Eigen::Vector3d& from, std::size_t stride);
-
-/// The same, and where.
+/// Where the patches, one in `stride` of them, show points in a row once each point is moved along its ray from `from`
+/// to the plane.
 LinePieces find_line_pieces(const std::vector<FlatPatch>& patches, const Eigen::Vector3d& from, std::size_t stride);
 
 }  // namespace tcm_icp

@@ -59,28 +59,30 @@ std::vector<Candidate> search_grid_of_centres(const std::vector<FlatPatch>& patc
 }
 
 // Pieces of lines move as their points do, along their rays: so they are found again from each better place.
-Candidate fitted(Candidate from, const std::vector<FlatPatch>& patches, std::size_t stride, double scale) {
-  const LinePieces pieces = find_line_pieces(patches, from.sweep.centre, stride);
-  from.sweep.axis = likely_axis(from.sweep.centre, pieces);
-  Candidate to;
-  to.sweep = fit_sweep(from.sweep, pieces, stride_for(pieces.middles.size(), kFitPieces), scale);
-  to.support = support_of_sweep(to.sweep, find_line_pieces(patches, to.sweep.centre, stride), kCloseTolerance);
-  return to;
+Sweep fitted(Sweep from, const std::vector<FlatPatch>& patches, std::size_t stride, double scale) {
+  const LinePieces pieces = find_line_pieces(patches, from.centre, stride);
+  from.axis = likely_axis(from.centre, pieces);
+  return fit_sweep(from, pieces, stride_for(pieces.middles.size(), kFitPieces), scale);
 }
 
 // Along the axis each round may move by a part of what is left alone: two equal parts tell all that is (Aitken).
-void settle(Candidate& at, const std::vector<FlatPatch>& patches, std::size_t stride) {
+Sweep settled(Sweep at, const std::vector<FlatPatch>& patches, std::size_t stride) {
   Eigen::Vector3d last = Eigen::Vector3d::Zero();
   for (int round = 0; round < kRounds; ++round) {
-    const Eigen::Vector3d before = at.sweep.centre;
+    const Eigen::Vector3d before = at.centre;
     at = fitted(at, patches, stride, kFittedScale);
-    const Eigen::Vector3d move = at.sweep.centre - before;
+    const Eigen::Vector3d move = at.centre - before;
     if (move.norm() < kLastMove) break;
     const double share = last.isZero() ? 0 : move.dot(last) / last.squaredNorm();
     const bool goes_on = share > 0 && share < kMostOfLast && round + 1 < kRounds;
-    if (goes_on) at.sweep.centre += share / (1 - share) * move;
+    if (goes_on) at.centre += share / (1 - share) * move;
     last = goes_on ? Eigen::Vector3d(0, 0, 0) : move;
   }
+  return at;
+}
+
+Candidate with_support(const Sweep& sweep, const std::vector<FlatPatch>& patches, std::size_t stride) {
+  return {sweep, support_of_sweep(sweep, find_line_pieces(patches, sweep.centre, stride), kCloseTolerance)};
 }
 
 bool has_rival(const std::vector<Candidate>& found) {
@@ -96,17 +98,17 @@ std::optional<Sweep> find_sweep(const std::vector<FlatPatch>& patches, const Eig
   const std::size_t stride = stride_for(patches.size(), kFitPatches);
   std::vector<Candidate> found;
   for (const Candidate& start : search_grid_of_centres(patches, box)) {
-    const Candidate to = fitted(start, patches, stride, kGridScale);
-    if (box.contains(to.sweep.centre)) found.push_back(to);
+    const Sweep sweep = fitted(start.sweep, patches, stride, kGridScale);
+    if (box.contains(sweep.centre)) found.push_back(with_support(sweep, patches, stride));
   }
   sort_by_support(found);
   found = first_apart(found, kKept, kRivalDistance, [](const Candidate& c) { return c.sweep.centre; });
-  for (Candidate& c : found) settle(c, patches, stride);
+  for (Candidate& c : found) c = with_support(settled(c.sweep, patches, stride), patches, stride);
   sort_by_support(found);
   if (found.empty() || has_rival(found)) return std::nullopt;
-  settle(found.front(), patches, 1);
-  if (!box.contains(found.front().sweep.centre)) return std::nullopt;
-  return found.front().sweep;
+  const Sweep best = settled(found.front().sweep, patches, 1);
+  if (!box.contains(best.centre)) return std::nullopt;
+  return best;
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 #pragma once
-// What a scanner that turns sees of the furnished room, with noise of its ranges.
+// What scanners that turn see of the furnished room, with noise of their ranges.
 
 #include "support/box_room.hpp"
 #include "tcm_icp/core/random.hpp"
@@ -11,11 +11,12 @@ inline Eigen::Quaterniond tilted() {
   return Eigen::Quaterniond(Eigen::AngleAxisd(0.1, Eigen::Vector3d(1, 2, 0).normalized()));
 }
 
-/// Equal steps of 0.6 degrees both ways, as of a scanner on a tripod; lines run around or up and down, as one likes.
-inline Points rays_of_equal_steps(const Eigen::Quaterniond& attitude) {
+/// Of a scanner on a tripod: steps [degrees] around, and up from `lowest` to below `highest`.
+inline Points rays_of_steps(const Eigen::Quaterniond& attitude, double around, double up, double lowest = -50,
+                            double highest = 60) {
   Points rays;
-  for (double azimuth = 0; azimuth < 360; azimuth += 0.6) {
-    for (double elevation = -50; elevation < 60; elevation += 0.6) {
+  for (double elevation = lowest; elevation < highest; elevation += up) {
+    for (double azimuth = 0; azimuth < 360; azimuth += around) {
       const double a = azimuth * std::numbers::pi / 180, e = elevation * std::numbers::pi / 180;
       rays.push_back(attitude * Eigen::Vector3d(std::cos(e) * std::cos(a), std::cos(e) * std::sin(a), std::sin(e)));
     }
