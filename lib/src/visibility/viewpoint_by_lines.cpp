@@ -15,7 +15,8 @@ constexpr std::size_t kMinPieces = 100;
 constexpr std::size_t kFramePoints = 5000, kMinFramePoints = 200;
 
 constexpr double kStartPlaces = 4000;
-constexpr std::size_t kGridPatches = 100, kFitPatches = 1000, kFitPieces = 2000;
+constexpr std::size_t kFirstPatches = 50, kGridPatches = 100, kFitPatches = 1000, kFitPieces = 2000;
+constexpr std::size_t kLookedAtAgain = 500;  // of the places, those that the first patches speak for
 constexpr std::size_t kStarts = 12, kKept = 4;
 constexpr int kRounds = 12;
 constexpr double kLastMove = 0.0002, kMostOfLast = 0.9;
@@ -44,16 +45,19 @@ void sort_by_support(std::vector<Candidate>& found) {
 }
 
 // Where noise hides lines, more pieces are seen from near the centre; where there is little, as many from anywhere, but
-// they agree on an axis from there alone.
+// they agree on an axis from there alone. Few patches tell which places to look from again.
 std::vector<Candidate> search_grid_of_centres(const std::vector<FlatPatch>& patches, const Eigen::AlignedBox3d& box) {
-  const std::size_t stride = stride_for(patches.size(), kGridPatches);
   const PlaceGrid<double> grid = grid_of_places(box, kStartPlaces);
-  std::vector<Candidate> found;
-  for (const Eigen::Vector3d& place : grid.places) {
-    const LinePieces pieces = find_line_pieces(patches, place, stride);
+  const auto seen_from = [&](const Eigen::Vector3d& place, std::size_t num_patches) {
+    const LinePieces pieces = find_line_pieces(patches, place, stride_for(patches.size(), num_patches));
     const Sweep sweep{place, likely_axis(place, pieces), 0};
-    found.push_back({sweep, support_of_sweep(sweep, pieces, kGridTolerance)});
-  }
+    return Candidate{sweep, support_of_sweep(sweep, pieces, kGridTolerance)};
+  };
+  std::vector<Candidate> found;
+  for (const Eigen::Vector3d& place : grid.places) found.push_back(seen_from(place, kFirstPatches));
+  sort_by_support(found);
+  if (found.size() > kLookedAtAgain) found.resize(kLookedAtAgain);
+  for (Candidate& c : found) c = seen_from(c.sweep.centre, kGridPatches);
   sort_by_support(found);
   return first_apart(found, kStarts, kNotNextSteps * grid.step, [](const Candidate& c) { return c.sweep.centre; });
 }
