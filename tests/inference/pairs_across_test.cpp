@@ -53,7 +53,7 @@ TEST_F(PairsAcrossTest, TheCellsMissNoHypothesisThatAgrees) {
       for (const std::size_t i : {0u, 1u, 2u, 3u, 4u, 5u, 6u, 7u, 8u, 9u}) {
         if ((i < 5) != (component.reference < 5)) moved.push_back(i);
       }
-      const PairsAcross across(graph, component, SeenThrough(graph, component), moved);
+      const PairsAcross across(graph, component, AlikeParts(graph, component), moved);
       double best = -1e300;
       for (const ComparedPair& pair : graph.pairs()) {
         for (const PoseHypothesis& h : pair.hypotheses) {
@@ -79,7 +79,7 @@ TEST_F(PairsAcrossTest, TheCellsMissNoHypothesisThatAgrees) {
 TEST_F(PairsAcrossTest, NothingAcrossSaysNothing) {
   const PairGraph graph = world_.graph();
   const Component component = world_.truth({0, 1});
-  const PairsAcross across(graph, component, SeenThrough(graph, component), {1});
+  const PairsAcross across(graph, component, AlikeParts(graph, component), {1});
   EXPECT_EQ(across.support(Isometry3d::Identity()), -graph.options().log_poses);
   EXPECT_EQ(across.most_elsewhere(), -graph.options().log_poses);
   EXPECT_FALSE(across.best_elsewhere(kNothing).motion);

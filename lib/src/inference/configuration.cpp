@@ -92,9 +92,9 @@ struct PartMove {
   bool leaves = false;
 };
 
-PartMove move_of(const PairGraph& graph, const Component& component, const SeenThrough& seen_through,
+PartMove move_of(const PairGraph& graph, const Component& component, const AlikeParts& alike,
                  const std::vector<std::size_t>& part) {
-  const PairsAcross across(graph, component, seen_through, part);
+  const PairsAcross across(graph, component, alike, part);
   const double here = across.support(Eigen::Isometry3d::Identity());
   const bool contradicted = here < -kLeastGain;
   if (!contradicted && across.most_elsewhere() <= std::max(here, 0.0)) return {};
@@ -113,8 +113,8 @@ bool apply(const PartMove& move, const std::vector<std::size_t>& part, Component
 // Parts to where the rest supports them most, or out, one after the other: each by the poses that earlier ones left.
 // Few move, so that many are asked side by side, and those behind one that moved again.
 bool move_groups(const PairGraph& graph, Component& component, int num_threads) {
-  std::optional<SeenThrough> seen_through(std::in_place, graph, component);
-  std::vector<std::vector<std::size_t>> parts = weakest_parts(graph, component, *seen_through);
+  std::optional<AlikeParts> alike(std::in_place, graph, component);
+  std::vector<std::vector<std::size_t>> parts = weakest_parts(graph, component, *alike);
   std::erase_if(parts, [](const auto& part) { return part.size() < 2; });
   const auto is_whole = [&](const std::vector<std::size_t>& part) {
     return std::all_of(part.begin(), part.end(), [&](std::size_t i) { return component.has(i); });
@@ -126,12 +126,12 @@ bool move_groups(const PairGraph& graph, Component& component, int num_threads) 
     const std::size_t count = std::min(moves.size(), parts.size() - next);
     parallel_for(num_threads, count, [&](std::size_t begin, std::size_t end) {
       for (std::size_t k = begin; k < end; ++k) {
-        moves[k] = is_whole(parts[next + k]) ? move_of(graph, component, *seen_through, parts[next + k]) : PartMove{};
+        moves[k] = is_whole(parts[next + k]) ? move_of(graph, component, *alike, parts[next + k]) : PartMove{};
       }
     });
     bool moved_now = false;
     for (std::size_t k = 0; k < count && !moved_now; ++k, ++next) moved_now = apply(moves[k], parts[next], component);
-    if (moved_now) seen_through.emplace(graph, component);
+    if (moved_now) alike.emplace(graph, component);
     moved = moved || moved_now;
   }
   return moved;
@@ -141,11 +141,10 @@ bool move_groups(const PairGraph& graph, Component& component, int num_threads) 
 // by the first of its scans, whatever the others say. True where there was one.
 bool drop_contradicted(const PairGraph& graph, Component& component) {
   bool dropped = false;
-  const SeenThrough seen_through(graph, component);
-  for (const std::vector<std::size_t>& part : weakest_parts(graph, component, seen_through)) {
+  const AlikeParts alike(graph, component);
+  for (const std::vector<std::size_t>& part : weakest_parts(graph, component, alike)) {
     if (!std::all_of(part.begin(), part.end(), [&](std::size_t i) { return component.has(i); })) continue;
-    if (PairsAcross(graph, component, seen_through, part).support(Eigen::Isometry3d::Identity()) >= -kLeastGain)
-      continue;
+    if (PairsAcross(graph, component, alike, part).support(Eigen::Isometry3d::Identity()) >= -kLeastGain) continue;
     for (const std::size_t i : part) component.T_reference_scan[i].reset();
     dropped = true;
   }

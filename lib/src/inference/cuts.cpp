@@ -12,14 +12,13 @@
 namespace tcm_icp {
 namespace {
 
-std::vector<WeightedEdge> supported_pairs(const PairGraph& graph, const Component& component,
-                                          const SeenThrough& seen_through) {
+std::vector<WeightedEdge> supported_pairs(const PairGraph& graph, const Component& component, const AlikeParts& alike) {
   std::vector<WeightedEdge> edges;
   for (const ComparedPair& pair : graph.pairs()) {
     if (!component.has(pair.a) || !component.has(pair.b)) continue;
     const double support =
         graph.support(pair, *component.T_reference_scan[pair.a], *component.T_reference_scan[pair.b]) -
-        seen_through.less_said(pair.a, pair.b);
+        alike.less_said(pair.a, pair.b);
     if (support > 0) edges.push_back({support, pair.a, pair.b});
   }
   return edges;
@@ -45,7 +44,7 @@ double Cut::lead() const {
 }
 
 Cut measure_cut(const PairGraph& graph, const Component& component, std::vector<std::size_t> moved, double most_lead) {
-  const PairsAcross across(graph, component, SeenThrough(graph, component), moved);
+  const PairsAcross across(graph, component, AlikeParts(graph, component), moved);
   return cut_of(across, std::move(moved), most_lead);
 }
 
@@ -113,25 +112,25 @@ double Leads::between(std::size_t a, std::size_t b) const {
 }
 
 std::vector<std::vector<std::size_t>> weakest_parts(const PairGraph& graph, const Component& component,
-                                                    const SeenThrough& seen_through) {
-  auto parts = minimum_cuts(supported_pairs(graph, component, seen_through), component.members(), component.reference);
+                                                    const AlikeParts& alike) {
+  auto parts = minimum_cuts(supported_pairs(graph, component, alike), component.members(), component.reference);
   sort_without_repeats(parts);
   return parts;
 }
 
 std::vector<Cut> weakest_cuts(const PairGraph& graph, const Component& component, int num_threads, double most_lead) {
-  const SeenThrough seen_through(graph, component);
-  auto parts = weakest_parts(graph, component, seen_through);
+  const AlikeParts alike(graph, component);
+  auto parts = weakest_parts(graph, component, alike);
   for (const std::size_t i : component.members()) {
     if (i != component.reference) parts.push_back({i});
   }
-  const auto storeys = seen_through.parts();
+  const auto storeys = alike.parts();
   parts.insert(parts.end(), storeys.begin(), storeys.end());
   sort_without_repeats(parts);
   std::vector<Cut> cuts(parts.size());
   parallel_for(num_threads, parts.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
-      const PairsAcross across(graph, component, seen_through, parts[k]);
+      const PairsAcross across(graph, component, alike, parts[k]);
       cuts[k] = cut_of(across, std::move(parts[k]), most_lead);
     }
   });

@@ -8,8 +8,8 @@
 #include <optional>
 #include <vector>
 
+#include "inference/alike_parts.hpp"
 #include "inference/compared_pairs.hpp"
-#include "inference/seen_through.hpp"
 
 namespace tcm_icp {
 
@@ -39,7 +39,7 @@ Cut measure_cut(const PairGraph& graph, const Component& component, std::vector<
 /// The parts that minimum cuts of the pairs' support against twins leave, without the reference, each once: for any two
 /// members the weakest hold between them is among them. Cost: minimum_cuts().
 std::vector<std::vector<std::size_t>> weakest_parts(const PairGraph& graph, const Component& component,
-                                                    const SeenThrough& seen_through);
+                                                    const AlikeParts& alike);
 
 /// The cuts of those parts, of those that see through one another and of every member by itself, each once; the same
 /// for any number of threads. Cost: minimum_cuts(), and PairsAcross::best_elsewhere() for each.

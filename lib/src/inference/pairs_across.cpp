@@ -6,7 +6,7 @@
 
 namespace tcm_icp {
 
-PairsAcross::PairsAcross(const PairGraph& graph, const Component& component, const SeenThrough& seen_through,
+PairsAcross::PairsAcross(const PairGraph& graph, const Component& component, const AlikeParts& alike,
                          const std::vector<std::size_t>& moved)
     : graph_(graph), component_(component) {
   std::vector<bool> is_moved(graph.num_scans(), false);
@@ -23,8 +23,8 @@ PairsAcross::PairsAcross(const PairGraph& graph, const Component& component, con
         hypotheses_.push_back({&h, pairs_.size(), pose(pair.a) * h.mean});
         most_support = std::max(most_support, h.most_support);
       }
-      pairs_.push_back({&pair, pair.b == i, most_support, seen_through.less_said(pair.a, pair.b),
-                        pose(pair.b) * graph.mean_of(pair.b)});
+      pairs_.push_back(
+          {&pair, pair.b == i, most_support, alike.less_said(pair.a, pair.b), pose(pair.b) * graph.mean_of(pair.b)});
     }
   }
   std::sort(across.begin(), across.end());

@@ -6,23 +6,23 @@
 #include <optional>
 #include <vector>
 
+#include "inference/alike_parts.hpp"
 #include "inference/compared_pairs.hpp"
 #include "inference/motion_cells.hpp"
-#include "inference/seen_through.hpp"
 
 namespace tcm_icp {
 
 /// Keeps references to graph and component, which must outlive it and not change.
 class PairsAcross {
  public:
-  /// @param seen_through  of the component
+  /// @param alike  of the component
   /// @param moved         members of the component
-  PairsAcross(const PairGraph& graph, const Component& component, const SeenThrough& seen_through,
+  PairsAcross(const PairGraph& graph, const Component& component, const AlikeParts& alike,
               const std::vector<std::size_t>& moved);
 
   /// What the pairs say for the part at motion * T, T its poses in the component: against places that agree by chance,
   /// less log_poses, or against a twin, which is rarer by log_twins, whichever is less. Of a pair between parts that
-  /// see through one another agreement says less against a twin (log_alike). Cost: the hypotheses of the pairs.
+  /// are twins (AlikeParts) agreement says less against a twin (log_alike). Cost: the hypotheses of the pairs.
   double support(const Eigen::Isometry3d& motion) const;
 
   struct Elsewhere {
@@ -46,7 +46,7 @@ class PairsAcross {
     const ComparedPair* pair;
     bool moves_b;
     double most_support;       // of any of its hypotheses
-    double alike;              // by how much less it says against twins, as free space has it
+    double alike;              // by how much less it says against twins
     Eigen::Vector3d middle_b;  // of b's points, in the reference's frame
   };
   // By a hypothesis, which is a motion of the part, with the other scan of its pair at its pose.

@@ -2,10 +2,10 @@
 // Parts of a component that see through one another more than they see through their own: storeys that are alike.
 
 #include <cstddef>
-#include <map>
 #include <vector>
 
 #include "inference/compared_pairs.hpp"
+#include "inference/joined_parts.hpp"
 
 namespace tcm_icp {
 
@@ -29,9 +29,8 @@ class SeenThrough {
   /// within a part, and where of either too few points were looked at.
   double excess(std::size_t a, std::size_t b) const;
 
-  /// By how much less the agreement of two scans says against twins: log_alike from kTwinExcess on, nothing up to
-  /// kUsualExcess.
-  double less_said(std::size_t a, std::size_t b) const;
+  /// How surely two scans are of parts that are twins: 1 from kTwinExcess on, 0 up to kUsualExcess.
+  double twins(std::size_t a, std::size_t b) const;
 
   /// Of the parts that others see through more than is usual each, or all that is not of it where it has the reference;
   /// ascending. Some may be named twice.
@@ -46,24 +45,16 @@ class SeenThrough {
 
   static double share(const Looked& looked);
   static Looked looked_at(const LookedAt& points, double overlap);
-  Looked both_ways(std::size_t part, std::size_t other) const;
   double excess_of_parts(std::size_t part, std::size_t other) const;
   // Of what is seen of `part` from `other`.
   double excess_one_way(std::size_t part, std::size_t other) const;
   bool tells_within(std::size_t part) const;
-  bool is_seen_through(std::size_t part) const;
   // How much likelier it is to see through as much as is usual than through a few times as much.
   double promise(const Looked& between) const;
-  void join_parts();
-  void join(std::size_t into, std::size_t from);
 
   const Component& component_;
-  const double log_alike_;
-  std::vector<std::size_t> part_;                       // of every scan; a part is named by one of its scans
-  std::vector<double> size_;                            // of every part: its scans
-  std::vector<Looked> within_;                          // of every part
-  std::vector<std::map<std::size_t, Looked>> between_;  // of every part, by each other one
-  Looked usual_;                                        // stands for two parts of which neither has pairs of its own
+  JoinedParts<Looked> parts_;
+  Looked usual_;  // stands for two parts of which neither has pairs of its own
 };
 
 }  // namespace tcm_icp

@@ -22,8 +22,9 @@ struct InferenceOptions {
   double log_slid = 0.8;
   /// >= 0; logarithm of by how much rarer places are at which all pairs look as they do at the right one.
   double log_twins = 3;
-  /// >= 0; by how much less the agreement of a pair says against them, where clearly more is seen through between the
-  /// parts that its scans belong to than within them, either way; by nothing up to what right poses have (SeenThrough).
+  /// >= 0; by how much less the agreement of a pair says against them, where between the parts that its scans belong to
+  /// clearly more is seen through than within them, either way, or pairs are clearly less likely; by nothing up to what
+  /// right poses have (AlikeParts).
   /// As much as the surest pairs say of storeys that are alike: parts that look like twins hang by nothing.
   double log_alike = 6;
   double log_spread = 3;     ///< >= 0; by how much less it says of poses that it is e times farther from
