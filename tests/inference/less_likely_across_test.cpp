@@ -71,6 +71,15 @@ TEST_F(LessLikelyAcrossTest, PairsThatOverlapLittleMayShowLess) {
   EXPECT_TRUE(parts().empty());
 }
 
+// Floors of a shell, right as they lie, see little of one another; of what they see little agrees.
+TEST_F(LessLikelyAcrossTest, WhatDoesNotLieOnOneAnotherIsNoTwin) {
+  for_pairs([&](std::size_t a, std::size_t b) {
+    const bool near = of_one_storey(a, b);
+    add(a, b, near ? 6 : -1, near ? 0.5 : 0.25);
+  });
+  EXPECT_TRUE(parts().empty());
+}
+
 TEST_F(LessLikelyAcrossTest, OneScanWithPeopleAboutItIsNoTwin) {
   for_pairs([&](std::size_t a, std::size_t b) { add(a, b, b == 8 ? 2.5 : 5.5); });
   EXPECT_TRUE(parts().empty());

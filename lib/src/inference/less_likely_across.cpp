@@ -14,8 +14,9 @@ constexpr double kOfNone = 2.5, kOfAll = 5;
 constexpr double kLeastLogOdds = -4, kMostBeyond = 1;
 constexpr double kTellingOverlap = 0.5;  // pairs that share less tell less
 constexpr double kEnoughWeight = 0.5;
-constexpr double kUsualLogOdds = 0.75;  // of two storeys that are laid on one another half of all pairs are right
-constexpr double kMidway = 1.75;        // between pairs of one part and of twins
+constexpr double kTwinShare = 0.6;  // of usual weights: twins lie on one another, so that their pairs share as much
+constexpr double kUpperQuartile = 0.75;  // of two storeys that are laid on one another half of all pairs are right
+constexpr double kMidway = 1.75;         // between pairs of one part and of twins
 // Standard deviations of right pairs: what all pairs of a scan have in common, such as people about it, and a pair's.
 constexpr double kScanScatter = 1.5, kPairScatter = 2;
 constexpr double kUsualDeficit = 1.25, kTwinDeficit = 1.75;
@@ -31,7 +32,7 @@ LessLikelyAcross::Shown& LessLikelyAcross::Shown::operator+=(const Shown& other)
 
 LessLikelyAcross::LessLikelyAcross(const PairGraph& graph, const Component& component)
     : component_(component), parts_(component.T_reference_scan.size()) {
-  std::vector<double> shown;
+  std::vector<double> shown, weights;
   for (const std::size_t k : graph.measured_pairs()) {
     const ComparedPair& pair = graph.pairs()[k];
     if (!component.has(pair.a) || !component.has(pair.b)) continue;
@@ -40,11 +41,12 @@ LessLikelyAcross::LessLikelyAcross(const PairGraph& graph, const Component& comp
     if (there == nullptr) continue;
     const double beyond = std::max(there->log_odds, kLeastLogOdds) - (kOfNone + kOfAll * there->overlap);
     shown.push_back(std::min(beyond, kMostBeyond));
-    const double weight = std::min(1.0, there->overlap / kTellingOverlap);
-    parts_.add(pair.a, pair.b, {1, weight, weight * shown.back()}, {});
+    weights.push_back(std::min(1.0, there->overlap / kTellingOverlap));
+    parts_.add(pair.a, pair.b, {1, weights.back(), weights.back() * shown.back()}, {});
   }
   if (shown.empty()) return;
-  usual_ = quantile(shown, kUsualLogOdds);
+  usual_ = quantile(shown, kUpperQuartile);
+  usual_weight_ = quantile(weights, kUpperQuartile);
   parts_.join([&](const Shown& between) { return between.sum - between.weight * (usual_ - kMidway); },
               [&](std::size_t part, std::size_t other) { return deficit_of_parts(part, other) < kUsualDeficit; });
 }
@@ -52,7 +54,7 @@ LessLikelyAcross::LessLikelyAcross(const PairGraph& graph, const Component& comp
 double LessLikelyAcross::deficit_of_parts(std::size_t part, std::size_t other) const {
   if (!parts_.has_between(part, other)) return 0;
   const Shown between = parts_.both_sides(part, other);
-  if (between.weight < kEnoughWeight) return 0;
+  if (between.weight < kEnoughWeight || between.weight < kTwinShare * usual_weight_ * between.pairs) return 0;
   Shown within{1, 1, usual_};  // one pair's worth, for parts that have none of their own
   within += parts_.within(part);
   within += parts_.within(other);

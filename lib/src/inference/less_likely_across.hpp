@@ -12,7 +12,8 @@ namespace tcm_icp {
 /// The scans of a component in parts, within each of which pairs show about as much for their poses as is usual of the
 /// set. Each pair at a twin may say a little for it, since it agrees there as it would where two scans see little of
 /// one another, and a storey's worth of pairs all say so together; but all of them say less than the pairs of each
-/// storey do. Joined one after another, those first that show most, as long as what pairs between two show is usual.
+/// storey do, though they overlap as much. Joined one after another, those first that show most, as long as what pairs
+/// between two show is usual.
 class LessLikelyAcross {
  public:
   /// By the pairs of the component that were measured at these very poses.
@@ -20,7 +21,8 @@ class LessLikelyAcross {
   LessLikelyAcross(const PairGraph& graph, const Component& component);
 
   /// Of the parts of two scans: how much less the log-odds of pairs between them are than within, for their overlap and
-  /// on average, less a standard error; 0 within a part.
+  /// on average, less a standard error; 0 within a part, and where pairs between them overlap less than is usual: twins
+  /// lie on one another.
   double deficit(std::size_t a, std::size_t b) const;
 
   /// How surely two scans are of parts that are twins: 1 from kTwinDeficit on, 0 up to kUsualDeficit.
@@ -41,7 +43,7 @@ class LessLikelyAcross {
 
   const Component& component_;
   JoinedParts<Shown> parts_;
-  double usual_ = 0;  // of pairs of the set that are of one part
+  double usual_ = 0, usual_weight_ = 0;  // of pairs that are of one part
 };
 
 }  // namespace tcm_icp
