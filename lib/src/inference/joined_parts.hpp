@@ -58,18 +58,12 @@ class JoinedParts {
     out += of(other, part);
     return out;
   }
-  /// @param holds  of two parts
-  template <typename Holds>
-  bool any_other(std::size_t part, Holds holds) const {
-    return std::any_of(between_[part].begin(), between_[part].end(),
-                       [&](const auto& other) { return holds(part, other.first); });
-  }
 
-  /// The parts of the members for which `counts`, ascending, or all members that are not of it where it has the
-  /// reference. Some may be named twice.
-  template <typename Counts>
+  /// The parts of the members that are told from any other by `are_apart`, ascending, or all members that are not of it
+  /// where it has the reference. Some may be named twice.
+  template <typename AreApart>
   std::vector<std::vector<std::size_t>> parts(const std::vector<std::size_t>& members, std::size_t reference,
-                                              Counts counts) const {
+                                              AreApart are_apart) const {
     const std::size_t of_reference = part_[reference];
     std::map<std::size_t, std::vector<std::size_t>> parts;
     for (const std::size_t i : members) {
@@ -79,7 +73,9 @@ class JoinedParts {
     }
     std::vector<std::vector<std::size_t>> out;
     for (auto& [part, scans] : parts) {
-      if (counts(part)) out.push_back(std::move(scans));
+      const bool is_told = std::any_of(between_[part].begin(), between_[part].end(),
+                                       [&](const auto& other) { return are_apart(part, other.first); });
+      if (is_told) out.push_back(std::move(scans));
     }
     return out;
   }

@@ -73,11 +73,9 @@ double LessLikelyAcross::twins(std::size_t a, std::size_t b) const {
 }
 
 std::vector<std::vector<std::size_t>> LessLikelyAcross::parts() const {
-  const auto is_less_likely = [&](std::size_t part, std::size_t other) {
+  return parts_.parts(component_.members(), component_.reference, [&](std::size_t part, std::size_t other) {
     return deficit_of_parts(part, other) >= kUsualDeficit;
-  };
-  return parts_.parts(component_.members(), component_.reference,
-                      [&](std::size_t part) { return parts_.any_other(part, is_less_likely); });
+  });
 }
 
 }  // namespace tcm_icp

@@ -84,11 +84,9 @@ double SeenThrough::twins(std::size_t a, std::size_t b) const {
 }
 
 std::vector<std::vector<std::size_t>> SeenThrough::parts() const {
-  const auto is_seen_through = [&](std::size_t part, std::size_t other) {
+  return parts_.parts(component_.members(), component_.reference, [&](std::size_t part, std::size_t other) {
     return excess_of_parts(part, other) >= kUsualExcess;
-  };
-  return parts_.parts(component_.members(), component_.reference,
-                      [&](std::size_t part) { return parts_.any_other(part, is_seen_through); });
+  });
 }
 
 }  // namespace tcm_icp
