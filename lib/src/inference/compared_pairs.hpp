@@ -107,8 +107,6 @@ class PairGraph {
   std::size_t num_scans() const { return moments_.size(); }
   const std::vector<ComparedPair>& pairs() const { return pairs_; }
   const std::vector<std::size_t>& pairs_of(std::size_t scan) const { return of_scan_[scan]; }
-  /// Pairs that were measured at poses that others imply, ascending.
-  const std::vector<std::size_t>& measured_pairs() const { return measured_; }
   const InferenceOptions& options() const { return options_; }
 
   bool same_pose(std::size_t scan, const Eigen::Isometry3d& T, const Eigen::Isometry3d& U) const {
@@ -160,6 +158,17 @@ class PairGraph {
   /// What a pair showed where it was measured at these very poses; null where it was not.
   const PoseHypothesis* measured_at(const ComparedPair& pair, const Eigen::Isometry3d& T_a,
                                     const Eigen::Isometry3d& T_b) const;
+
+  /// Visits the pairs of the component that were measured at its very poses, ascending, with what each showed there.
+  template <typename Visit>
+  void for_measured(const Component& component, Visit visit) const {
+    const auto& T = component.T_reference_scan;
+    for (const std::size_t k : measured_) {
+      const ComparedPair& pair = pairs_[k];
+      if (!component.has(pair.a) || !component.has(pair.b)) continue;
+      if (const PoseHypothesis* there = measured_at(pair, *T[pair.a], *T[pair.b])) visit(pair, *there);
+    }
+  }
 
   /// The set's constant as it would be without these pairs, ascending; infinite where they are too few to matter. Cost:
   /// all hypotheses that taught it.

@@ -41,7 +41,7 @@ Cut measure_cut(const PairGraph& graph, const Component& component, std::vector<
 std::vector<std::vector<std::size_t>> weakest_parts(const PairGraph& graph, const Component& component,
                                                     const AlikeParts& alike);
 
-/// The cuts of those parts, of those that see through one another and of every member by itself, each once; the same
+/// The cuts of those parts, of those that are but alike and of every member by itself, each once; the same
 /// for any number of threads. Cost: minimum_cuts(), and PairsAcross::best_elsewhere() for each.
 /// @param most_lead  as in measure_cut()
 std::vector<Cut> weakest_cuts(const PairGraph& graph, const Component& component, int num_threads = 1,

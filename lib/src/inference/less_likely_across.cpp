@@ -33,17 +33,12 @@ LessLikelyAcross::Shown& LessLikelyAcross::Shown::operator+=(const Shown& other)
 LessLikelyAcross::LessLikelyAcross(const PairGraph& graph, const Component& component)
     : component_(component), parts_(component.T_reference_scan.size()) {
   std::vector<double> shown, weights;
-  for (const std::size_t k : graph.measured_pairs()) {
-    const ComparedPair& pair = graph.pairs()[k];
-    if (!component.has(pair.a) || !component.has(pair.b)) continue;
-    const PoseHypothesis* there =
-        graph.measured_at(pair, *component.T_reference_scan[pair.a], *component.T_reference_scan[pair.b]);
-    if (there == nullptr) continue;
-    const double beyond = std::max(there->log_odds, kLeastLogOdds) - (kOfNone + kOfAll * there->overlap);
+  graph.for_measured(component, [&](const ComparedPair& pair, const PoseHypothesis& there) {
+    const double beyond = std::max(there.log_odds, kLeastLogOdds) - (kOfNone + kOfAll * there.overlap);
     shown.push_back(std::min(beyond, kMostBeyond));
-    weights.push_back(std::min(1.0, there->overlap / kTellingOverlap));
+    weights.push_back(std::min(1.0, there.overlap / kTellingOverlap));
     parts_.add(pair.a, pair.b, {1, weights.back(), weights.back() * shown.back()}, {});
-  }
+  });
   if (shown.empty()) return;
   usual_ = quantile(shown, kUpperQuartile);
   usual_weight_ = quantile(weights, kUpperQuartile);

@@ -35,16 +35,11 @@ SeenThrough::Looked SeenThrough::looked_at(const LookedAt& points, double overla
 SeenThrough::SeenThrough(const PairGraph& graph, const Component& component)
     : component_(component), parts_(component.T_reference_scan.size()) {
   std::vector<double> shares;
-  for (const std::size_t k : graph.measured_pairs()) {
-    const ComparedPair& pair = graph.pairs()[k];
-    if (!component.has(pair.a) || !component.has(pair.b)) continue;
-    const PoseHypothesis* there =
-        graph.measured_at(pair, *component.T_reference_scan[pair.a], *component.T_reference_scan[pair.b]);
-    if (there == nullptr) continue;
-    parts_.add(pair.a, pair.b, looked_at(there->of_a, there->overlap), looked_at(there->of_b, there->overlap));
+  graph.for_measured(component, [&](const ComparedPair& pair, const PoseHypothesis& there) {
+    parts_.add(pair.a, pair.b, looked_at(there.of_a, there.overlap), looked_at(there.of_b, there.overlap));
     const Looked looked = parts_.both_sides(pair.a, pair.b);
     if (looked.points >= kEnoughPoints) shares.push_back(share(looked));
-  }
+  });
   if (shares.empty()) return;
   usual_.points = kEnoughPoints;
   usual_.violations = kEnoughPoints * quantile(shares, kUsualQuantile);
