@@ -107,6 +107,37 @@ TEST(Decide, ALeadOfMorePairsIsNeverMoreProbable) {
   }
 }
 
+TEST(Decide, WhatSlidesIsNowhereForSure) {
+  ScanMeasurements m = good();
+  m.lead = m.support = 1000;
+  const double held = decide(m, kUsual, kDefault).probability;
+  double last = 1;
+  for (const double left : {0.3, 0.6, 0.9, 0.95, 0.98, 1.0, 1.2}) {
+    m.evidence.left_after_slide[0] = left;
+    const Decision d = decide(m, kUsual, kDefault);
+    EXPECT_LE(d.probability, last) << "at " << left;
+    last = d.probability;
+    if (left <= 0.6) EXPECT_NEAR(d.probability, held, 0.05) << "hundreds of points fewer agree";
+    if (left < 1) continue;
+    EXPECT_LT(d.probability, 0.34) << "either way along, or here";
+    EXPECT_EQ(d.reason, Reason::kSlides);
+    EXPECT_NE(d.text.find("weakest direction"), std::string::npos) << d.text;
+  }
+}
+
+// Of a hundred agreeing points five fewer are chance, of ten thousand five hundred are none.
+TEST(Decide, MorePointsTellASmallerSlide) {
+  double last = 0;
+  for (const std::size_t num_points : {100u, 300u, 1000u, 3000u, 10'000u}) {
+    ScanMeasurements m = good();
+    m.evidence.num_points = num_points;
+    m.evidence.left_after_slide[0] = 0.95;
+    const double now = decide(m, kUsual, kDefault).probability;
+    EXPECT_GE(now, last) << "of " << num_points;
+    last = now;
+  }
+}
+
 TEST(Decide, ConfidenceIsTheLeastProbability) {
   for (const double lead : {-10.0, 0.0, 1.0, 5.0, 20.0}) {
     ScanMeasurements m = good();

@@ -80,6 +80,22 @@ TEST(FreeSpace, WhatStandsInOneScanIsSeenThroughByTheOther) {
   EXPECT_EQ(sum.num_violating_of_b, e.num_violating);
 }
 
+// Rays of `a` are a degree apart: a metre, where the things stand that `b` is five metres from.
+TEST(FreeSpace, WhatMayStandBetweenTwoRaysIsNotSeenThrough) {
+  const testing::BoxRoom hall{AlignedBox3d(Vector3d(0, -20, -20), Vector3d(90, 20, 20)), {}};
+  const auto with_box = [&](double width_m) {
+    testing::BoxRoom out = hall;
+    out.boxes.emplace_back(Vector3d(65, -width_m / 2, -3), Vector3d(65.2, width_m / 2, 3));
+    return out;
+  };
+  const Seen a(hall, {5, 0, 0}), post(with_box(0.2), {60, 0, 0}), wall(with_box(4), {60, 0, 0});
+  const FreeSpaceEvidence at_wall = measure_violations(a, wall, Isometry3d::Identity());
+  EXPECT_GT(at_wall.num_violating_of_b, 30u);
+  EXPECT_EQ(measure_violations(a, post, Isometry3d::Identity()).num_violating_of_b, 0u);
+  const Seen beside(hall, {60, -4, 0});
+  EXPECT_GT(measure_violations(beside, post, Isometry3d::Identity()).num_violating_of_b, 2u) << "seen from nearby";
+}
+
 TEST(FreeSpace, ViolationsAreTheSameWithoutTheMatches) {
   const Seen a(kLeft, {3, 2, 1.5}), b(kRight, {7.5, 2, 1.5});
   const Isometry3d T_a_b(Translation3d(-4.5, 0, 0));

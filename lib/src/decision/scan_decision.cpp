@@ -34,7 +34,7 @@ struct ScanModel {
 // fitted.
 struct ScanCalibration {
   double shift, slope;
-  double probability(double log_odds) const { return 1 / (1 + std::exp(-(shift + slope * log_odds))); }
+  double log_odds(double by_model) const { return shift + slope * by_model; }
 };
 
 #include "scan_calibration.inc"
@@ -44,6 +44,14 @@ constexpr double kLeastSigma = 0.01, kMostSigma = 2;  // in coarse voxels
 constexpr std::size_t kNumReasons = static_cast<std::size_t>(Reason::kTooFewPoints) + 1;
 
 double agreeing(const AlignmentEvidence& e) { return e.consensus() * static_cast<double>(e.num_points); }
+
+// Log-odds of the place against those that the scan slides to, either way along its weakest direction: by how much
+// fewer of its points agree there, in standard deviations of the difference of two such counts.
+double odds_against_slides(const AlignmentEvidence& e) {
+  const double count = agreeing(e), lost = std::max(0.0, count * (1 - e.left_after_slide[0]));
+  const double variance = std::max(1.0, 2 * count * (1 - e.inlier_share));
+  return lost * lost / variance / 2 - std::log(2);
+}
 
 // What features belong to what can be said of a scan.
 Reason reason_of(std::size_t feature) {
@@ -138,9 +146,12 @@ Decision decide(const ScanMeasurements& m, const ComponentReference& component, 
     return decision;
   }
   const DecisionFeatures& f = decision.features;
-  decision.probability = kScanCalibration.probability(kScanModel.log_odds(f));
+  const double by_model = kScanCalibration.log_odds(kScanModel.log_odds(f)), slides = odds_against_slides(m.evidence);
+  decision.probability = 1 / (1 + std::exp(-by_model) + std::exp(-slides));
   if (decision.probability >= options.confidence) {
     decision.reason = Reason::kAccepted;
+  } else if (slides < by_model) {
+    decision.reason = Reason::kSlides;
   } else {
     // What each kind of measurement takes from the log-odds, where the others are as right scans have them.
     std::array<DecisionFeatures, kNumReasons> instead;

@@ -2,7 +2,9 @@
 // Bins of directions: the octahedral map of the sphere onto a square (Engelhardt and Dachsbacher, 2008). No
 // trigonometry and no branches, so that compilers vectorise it.
 
+#include <Eigen/Core>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -29,6 +31,21 @@ class DirectionBins {
     return static_cast<std::int32_t>(static_cast<float>(row(z < 0 ? folded_v : v)) * edge) + row(z < 0 ? folded_u : u);
   }
 
+  std::size_t operator()(const Eigen::Vector3d& direction) const {
+    const Eigen::Vector3f d = direction.cast<float>();
+    return static_cast<std::size_t>((*this)(d.x(), d.y(), d.z()));
+  }
+
+  double mean_solid_angle_sr() const { return 4 * EIGEN_PI / static_cast<double>(size()); }
+
+  /// A bin and the eight about it.
+  std::array<std::size_t, 9> around(std::size_t bin) const {
+    const int row = static_cast<int>(bin) / edge_, column = static_cast<int>(bin) % edge_;
+    std::array<std::size_t, 9> out;
+    for (int k = 0; k < 9; ++k) out[static_cast<std::size_t>(k)] = wrapped(row + k / 3 - 1, column + k % 3 - 1);
+    return out;
+  }
+
   /// The bin at a row and a column at most one outside of the square: beyond its border the map goes on, turned round.
   std::size_t wrapped(int row, int column) const {
     const int last = edge_ - 1;
@@ -45,5 +62,8 @@ class DirectionBins {
 
   int edge_;
 };
+
+/// Of range images: about one degree wide.
+inline const DirectionBins kRangeImageBins(41'253);  // square degrees of a sphere
 
 }  // namespace tcm_icp

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <unordered_map>
+#include <vector>
 
 #include "core/acceptance.hpp"
+#include "visibility/direction_bins.hpp"
 #include "visibility/seen_through.hpp"
 
 namespace tcm_icp {
@@ -25,52 +28,88 @@ struct Tally {
   double share() const { return count() == 0 ? 1 : static_cast<double>(before) / static_cast<double>(count()); }
 };
 
-Tally look(const RangeImage& image, const Cloud& points, double voxel_m) {
+// Points before the surfaces that a scanner saw, by bins of its range image.
+class PointsBefore {
+ public:
+  void add(const Eigen::Vector3d& direction, double solid_angle_sr) {
+    const std::size_t bin = kRangeImageBins(direction);
+    bins_.push_back(bin);
+    solid_angle_sr_[bin] += solid_angle_sr;
+  }
+
+  // Those that fill a bin with the others about them. What is smaller, a post far away, may stand between two rays.
+  std::size_t num_resolved() const {
+    return static_cast<std::size_t>(std::count_if(bins_.begin(), bins_.end(), [&](std::size_t bin) {
+      double about_sr = 0;
+      for (const std::size_t near : kRangeImageBins.around(bin)) {
+        const auto found = solid_angle_sr_.find(near);
+        if (found != solid_angle_sr_.end()) about_sr += found->second;
+      }
+      return about_sr >= kRangeImageBins.mean_solid_angle_sr();
+    }));
+  }
+
+ private:
+  std::vector<std::size_t> bins_;  // of each point
+  std::unordered_map<std::size_t, double> solid_angle_sr_;
+};
+
+// Each point stands for so much of a surface.
+Tally look(const RangeImage& image, const Cloud& points, double voxel_m, double area_m2) {
   Tally tally;
+  PointsBefore before;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Eigen::Vector3d ray = points.points[i] - image.place();
-    const double range = ray.norm();
-    if (std::abs(points.normals[i].dot(ray)) <= kMinIncidenceCosine * range) continue;
+    const double range = ray.norm(), cosine = std::abs(points.normals[i].dot(ray)) / range;
+    if (cosine <= kMinIncidenceCosine) continue;
     const Seen seen = seen_at(image, points.points[i], voxel_m);
-    tally.before += seen == Seen::kThrough ? 1 : 0;
+    if (seen == Seen::kThrough) before.add(ray / range, area_m2 * cosine / (range * range));
     tally.at += seen == Seen::kAt ? 1 : 0;
   }
+  tally.before = before.num_resolved();
   return tally;
 }
 
 // Every so-manieth, so that both directions cost the same for any scan.
-std::vector<std::size_t> pick(const Cloud& cloud, std::size_t max_points) {
-  std::vector<std::size_t> usable, out;
+struct Picked {
+  std::vector<std::size_t> points;
+  double share = 1;  // of those that have a normal
+};
+
+Picked pick(const Cloud& cloud, std::size_t max_points) {
+  std::vector<std::size_t> usable;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     if (!cloud.normals[i].isZero()) usable.push_back(i);
   }
+  Picked out;
   const std::size_t count = std::min(max_points, usable.size());
-  for (std::size_t i = 0; i < count; ++i) out.push_back(usable[i * usable.size() / count]);
+  for (std::size_t i = 0; i < count; ++i) out.points.push_back(usable[i * usable.size() / count]);
+  if (count > 0) out.share = static_cast<double>(count) / static_cast<double>(usable.size());
   return out;
 }
 
-Tally look_from(const SightedScan& viewer, const SightedScan& other, const std::vector<std::size_t>& picked,
+Tally look_from(const SightedScan& viewer, const SightedScan& other, const Picked& picked,
                 const Eigen::Isometry3d& T_viewer_other) {
   Cloud moved;
-  for (const std::size_t i : picked) {
+  for (const std::size_t i : picked.points) {
     moved.points.push_back(T_viewer_other * other.surfaces.cloud.points[i]);
     moved.normals.push_back(T_viewer_other.linear() * other.surfaces.cloud.normals[i]);
   }
-  const double voxel_m = viewer.surfaces.voxel_size_m;
+  const double voxel_m = viewer.surfaces.voxel_size_m, area_m2 = voxel_m * voxel_m / picked.share;
   Tally least;
   bool first = true;
   for (const RangeImage& image : viewer.sight.images) {
-    const Tally tally = look(image, moved, voxel_m);
+    const Tally tally = look(image, moved, voxel_m, area_m2);
     if (first || tally.share() < least.share()) least = tally;
     first = false;
   }
   return least;
 }
 
-void compare_sides(const SightedScan& a, const SightedScan& b, const std::vector<std::size_t>& picked,
-                   const Eigen::Isometry3d& T_a_b, FreeSpaceEvidence& evidence) {
+void compare_sides(const SightedScan& a, const SightedScan& b, const Picked& picked, const Eigen::Isometry3d& T_a_b,
+                   FreeSpaceEvidence& evidence) {
   const double voxel_m = a.surfaces.voxel_size_m;
-  for (const std::size_t i : picked) {
+  for (const std::size_t i : picked.points) {
     const Eigen::Vector3d p = T_a_b * b.surfaces.cloud.points[i];
     const Neighbor q = a.surfaces.index.nearest_within(p, voxel_m);
     if (!q.found()) continue;
