@@ -107,50 +107,6 @@ TEST(Decide, ALeadOfMorePairsIsNeverMoreProbable) {
   }
 }
 
-TEST(Decide, WhereAllSlideNothingHasAPlace) {
-  ScanMeasurements m = good();
-  m.lead = m.support = 1000;
-  const double held = decide(m, kUsual, kDefault).probability;
-  double last = 1;
-  for (const double left : {0.3, 0.6, 0.9, 0.95, 0.98, 1.0, 1.2}) {
-    ComponentReference all = kUsual;
-    m.evidence.left_after_slide[0] = all.left_after_slide = left;
-    const Decision d = decide(m, all, kDefault);
-    EXPECT_LE(d.probability, last) << "at " << left;
-    last = d.probability;
-    if (left <= 0.6) EXPECT_NEAR(d.probability, held, 0.05) << "hundreds of points fewer agree";
-    if (left < 1) continue;
-    EXPECT_LT(d.probability, 0.34) << "either way along, or here";
-    EXPECT_EQ(d.reason, Reason::kSlides);
-    EXPECT_NE(d.text.find("weakest direction"), std::string::npos) << d.text;
-  }
-}
-
-TEST(Decide, WhatSlidesBetweenOthersIsHeldByThem) {
-  ScanMeasurements slides = good();
-  slides.evidence.left_after_slide[0] = 1;
-  ComponentReference all = kUsual;
-  all.left_after_slide = 0.6;
-  EXPECT_GT(decide(slides, all, kDefault).probability, 0.5);
-  all.left_after_slide = 1;
-  EXPECT_LT(decide(slides, all, kDefault).probability, 0.34);
-}
-
-// Of a hundred agreeing points five fewer are chance, of ten thousand five hundred are none.
-TEST(Decide, MorePointsTellASmallerSlide) {
-  ComponentReference all = kUsual;
-  all.left_after_slide = 0.95;
-  double last = 0;
-  for (const std::size_t num_points : {100u, 300u, 1000u, 3000u, 10'000u}) {
-    ScanMeasurements m = good();
-    m.evidence.num_points = num_points;
-    m.evidence.left_after_slide[0] = 0.95;
-    const double now = decide(m, all, kDefault).probability;
-    EXPECT_GE(now, last) << "of " << num_points;
-    last = now;
-  }
-}
-
 TEST(Decide, ConfidenceIsTheLeastProbability) {
   for (const double lead : {-10.0, 0.0, 1.0, 5.0, 20.0}) {
     ScanMeasurements m = good();
@@ -274,9 +230,6 @@ TEST(ComponentReference, IsWhatTheMiddleMemberShows) {
   EXPECT_EQ(ComponentReference::of(members).residual_m, 0.03);
   for (std::size_t i = 0; i < 5; ++i) members[i].num_across = i + 1;
   EXPECT_DOUBLE_EQ(ComponentReference::of(members).lead_a_pair, 20.0 / 3);
-  const std::vector<double> left{0.9, 0.95, 0.6, 0.8, 1};
-  for (std::size_t i = 0; i < 5; ++i) members[i].evidence.left_after_slide[0] = left[i];
-  EXPECT_EQ(ComponentReference::of(members).left_after_slide, 0.8) << "of five one slides less";
   members.resize(2);
   EXPECT_EQ(ComponentReference::of(members).inlier_share, 0.9);
   EXPECT_EQ(ComponentReference::of(members).residual_m, 0.01) << "of two the better counts";

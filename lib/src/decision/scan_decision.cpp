@@ -34,27 +34,16 @@ struct ScanModel {
 // fitted.
 struct ScanCalibration {
   double shift, slope;
-  double log_odds(double by_model) const { return shift + slope * by_model; }
+  double probability(double log_odds) const { return 1 / (1 + std::exp(-(shift + slope * log_odds))); }
 };
 
 #include "scan_calibration.inc"
 
 constexpr double kMostLead = 40, kLeastLead = -10, kMostLeadAPair = 1000;
-constexpr double kHeld = 0.25;                        // of a component: the others lie between them
 constexpr double kLeastSigma = 0.01, kMostSigma = 2;  // in coarse voxels
 constexpr std::size_t kNumReasons = static_cast<std::size_t>(Reason::kTooFewPoints) + 1;
 
 double agreeing(const AlignmentEvidence& e) { return e.consensus() * static_cast<double>(e.num_points); }
-
-// Log-odds of the place against those that the scan slides to, either way along its weakest direction: by how much
-// fewer of its points agree there, in standard deviations of the difference of two such counts. What slides between
-// others that do not is held by these.
-double odds_against_slides(const AlignmentEvidence& e, const ComponentReference& component) {
-  const double left = std::min(weakest_left(e), component.left_after_slide);
-  const double count = agreeing(e), lost = std::max(0.0, count * (1 - left));
-  const double variance = std::max(1.0, 2 * count * (1 - e.inlier_share));
-  return lost * lost / variance / 2 - std::log(2);
-}
 
 // What features belong to what can be said of a scan.
 Reason reason_of(std::size_t feature) {
@@ -98,16 +87,15 @@ double ScanMeasurements::lead_a_pair() const {
 }
 
 ComponentReference ComponentReference::of(const std::vector<ScanMeasurements>& members) {
-  std::vector<double> shares, residuals_m, leads_a_pair, left;
+  std::vector<double> shares, residuals_m, leads_a_pair;
   for (const auto& m : members) {
     shares.push_back(m.evidence.inlier_share);
     residuals_m.push_back(m.evidence.median_residual_m);
     leads_a_pair.push_back(m.lead_a_pair());
-    left.push_back(weakest_left(m.evidence));
   }
   if (shares.empty()) return {};
   std::sort(residuals_m.begin(), residuals_m.end());
-  return {median(shares), residuals_m[(residuals_m.size() - 1) / 2], median(leads_a_pair), quantile(left, kHeld)};
+  return {median(shares), residuals_m[(residuals_m.size() - 1) / 2], median(leads_a_pair)};
 }
 
 DecisionFeatures decision_features(const ScanMeasurements& m, const ComponentReference& component) {
@@ -150,13 +138,9 @@ Decision decide(const ScanMeasurements& m, const ComponentReference& component, 
     return decision;
   }
   const DecisionFeatures& f = decision.features;
-  const double by_model = kScanCalibration.log_odds(kScanModel.log_odds(f)),
-               slides = odds_against_slides(m.evidence, component);
-  decision.probability = 1 / (1 + std::exp(-by_model) + std::exp(-slides));
+  decision.probability = kScanCalibration.probability(kScanModel.log_odds(f));
   if (decision.probability >= options.confidence) {
     decision.reason = Reason::kAccepted;
-  } else if (slides < by_model) {
-    decision.reason = Reason::kSlides;
   } else {
     // What each kind of measurement takes from the log-odds, where the others are as right scans have them.
     std::array<DecisionFeatures, kNumReasons> instead;

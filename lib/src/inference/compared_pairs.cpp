@@ -49,6 +49,7 @@ PairGraph::PairGraph(std::vector<ComparedPair> pairs, std::vector<PointMoments> 
     for (auto& h : pair.hypotheses) {
       h.mean = h.T_a_b * moments_[pair.b].mean;
       h.telling = h.is_there ? Telling{std::exp(options_.log_missed_there), 1} : telling(h.overlap);
+      h.telling.firm = firm(h.weakest_left);
       if (h.implied && !h.is_there) h.slid = slid(h.weakest_left);
       const Telling found = h.as_found(0);
       const double odds = odds_found(h.log_odds, h.implied, 0);
@@ -164,6 +165,10 @@ Telling PairGraph::telling(double overlap) const {
 double PairGraph::slid(double weakest_left) const {
   const double loose = (weakest_left - options_.firm_left) / (options_.loose_left - options_.firm_left);
   return options_.log_slid * std::clamp(loose, 0.0, 1.0);
+}
+
+double PairGraph::firm(double weakest_left) const {
+  return std::clamp((1 - weakest_left) / (1 - options_.loose_left), 0.0, 1.0);
 }
 
 double PairGraph::support_of(std::size_t scan, const Eigen::Isometry3d& T, const Component& component) const {

@@ -36,10 +36,9 @@ struct ScanMeasurements {
 
 /// What scans of a component usually show.
 struct ComponentReference {
-  double inlier_share = 0;      ///< median
-  double residual_m = 0;        ///< [m] lower median: of two scans the better counts
-  double lead_a_pair = 0;       ///< median
-  double left_after_slide = 0;  ///< lower quartile of what the weakest slides leave
+  double inlier_share = 0;  ///< median
+  double residual_m = 0;    ///< [m] lower median: of two scans the better counts
+  double lead_a_pair = 0;   ///< median
   static ComponentReference of(const std::vector<ScanMeasurements>& members);
 };
 
