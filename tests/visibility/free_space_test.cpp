@@ -81,7 +81,7 @@ TEST(FreeSpace, WhatStandsInOneScanIsSeenThroughByTheOther) {
 }
 
 // Rays of `a` are a degree apart: a metre, where the things stand that `b` is five metres from.
-TEST(FreeSpace, WhatMayStandBetweenTwoRaysIsNotSeenThrough) {
+TEST(FreeSpace, WhatMayStandBetweenTwoRaysIsSmall) {
   const testing::BoxRoom hall{AlignedBox3d(Vector3d(0, -20, -20), Vector3d(90, 20, 20)), {}};
   const auto with_box = [&](double width_m) {
     testing::BoxRoom out = hall;
@@ -90,10 +90,14 @@ TEST(FreeSpace, WhatMayStandBetweenTwoRaysIsNotSeenThrough) {
   };
   const Seen a(hall, {5, 0, 0}), post(with_box(0.2), {60, 0, 0}), wall(with_box(4), {60, 0, 0});
   const FreeSpaceEvidence at_wall = measure_violations(a, wall, Isometry3d::Identity());
-  EXPECT_GT(at_wall.num_violating_of_b, 30u);
-  EXPECT_EQ(measure_violations(a, post, Isometry3d::Identity()).num_violating_of_b, 0u);
+  EXPECT_GT(at_wall.num_large_of_b, 30u);
+  EXPECT_EQ(at_wall.num_large, at_wall.num_large_of_b);
+  EXPECT_EQ(at_wall.num_violating, at_wall.num_large) << "all of it is large";
+  const FreeSpaceEvidence at_post = measure_violations(a, post, Isometry3d::Identity());
+  EXPECT_GT(at_post.num_violating_of_b, 0u);
+  EXPECT_EQ(at_post.num_large, 0u);
   const Seen beside(hall, {60, -4, 0});
-  EXPECT_GT(measure_violations(beside, post, Isometry3d::Identity()).num_violating_of_b, 2u) << "seen from nearby";
+  EXPECT_GT(measure_violations(beside, post, Isometry3d::Identity()).num_large_of_b, 2u) << "seen from nearby";
 }
 
 TEST(FreeSpace, ViolationsAreTheSameWithoutTheMatches) {

@@ -10,6 +10,9 @@
 namespace tcm_icp {
 namespace {
 
+// Of the agreement that a slide leaves: from here on it is hardly told from all, which is known to 0.03 by the 500 or
+// so points of a pair that agree.
+constexpr double kHardlyHeld = 0.95;
 // Hypotheses whose support would be below log(1 + e^-2) = 0.13 change nothing.
 constexpr double kLeastSupported = -2;
 // Of what taught a set's constant: less does not change it by what would matter.
@@ -168,7 +171,7 @@ double PairGraph::slid(double weakest_left) const {
 }
 
 double PairGraph::firm(double weakest_left) const {
-  return std::clamp((1 - weakest_left) / (1 - options_.loose_left), 0.0, 1.0);
+  return std::clamp((1 - weakest_left) / (1 - kHardlyHeld), 0.0, 1.0);
 }
 
 double PairGraph::support_of(std::size_t scan, const Eigen::Isometry3d& T, const Component& component) const {

@@ -30,7 +30,7 @@ struct Telling {
   }
 };
 
-/// Points of a scan at surfaces that another saw, or before them; and of these, before them.
+/// Points of a scan at surfaces that another saw, or before them; and of these, before them, but for what is small.
 struct LookedAt {
   std::size_t points = 0, violations = 0;
 };
@@ -146,7 +146,7 @@ class PairGraph {
   /// implied hypothesis of little odds counts against the poses, by log_missed at the most; by less where less than
   /// telling_overlap of the pair overlaps there, for the right pose seldom shows there either, and what it shows
   /// counts for less; and by less where it ended farther off and little holds it (log_slid). Where next to nothing
-  /// holds it, it says as much less for the poses (loose_left). Where a pair was measured at these very poses its
+  /// holds it, it says as much less for the poses. Where a pair was measured at these very poses its
   /// implied hypotheses about them are not asked, and it may count against them by log_missed_there.
   double support(const ComparedPair& pair, const Eigen::Isometry3d& T_a, const Eigen::Isometry3d& T_b) const {
     return agreement(pair, T_a, T_b).support;

@@ -26,8 +26,10 @@ void transfer(Record& record, T& value) {
 
 template <typename Record, MaybeConst<FreeSpaceEvidence> T>
 void transfer(Record& record, T& value) {
-  auto& [num_points, num_violating, num_matches, num_opposed, num_points_of_b, num_violating_of_b] = value;
-  record(num_points, num_violating, num_matches, num_opposed, num_points_of_b, num_violating_of_b);
+  auto& [num_points, num_violating, num_matches, num_opposed, num_points_of_b, num_violating_of_b, num_large,
+         num_large_of_b] = value;
+  record(num_points, num_violating, num_matches, num_opposed, num_points_of_b, num_violating_of_b, num_large,
+         num_large_of_b);
 }
 
 template <typename Record, MaybeConst<LinkMeasurements> T>

@@ -23,7 +23,7 @@ double beyond_chance(std::size_t part, std::size_t all, double largest_share) {
 }
 
 struct Tally {
-  std::size_t before = 0, at = 0;
+  std::size_t before = 0, large = 0, at = 0;
   std::size_t count() const { return before + at; }
   double share() const { return count() == 0 ? 1 : static_cast<double>(before) / static_cast<double>(count()); }
 };
@@ -37,8 +37,10 @@ class PointsBefore {
     solid_angle_sr_[bin] += solid_angle_sr;
   }
 
+  std::size_t count() const { return bins_.size(); }
+
   // Those that fill a bin with the others about them. What is smaller, a post far away, may stand between two rays.
-  std::size_t num_resolved() const {
+  std::size_t num_large() const {
     return static_cast<std::size_t>(std::count_if(bins_.begin(), bins_.end(), [&](std::size_t bin) {
       double about_sr = 0;
       for (const std::size_t near : kRangeImageBins.around(bin)) {
@@ -66,7 +68,8 @@ Tally look(const RangeImage& image, const Cloud& points, double voxel_m, double 
     if (seen == Seen::kThrough) before.add(ray / range, area_m2 * cosine / (range * range));
     tally.at += seen == Seen::kAt ? 1 : 0;
   }
-  tally.before = before.num_resolved();
+  tally.before = before.count();
+  tally.large = before.num_large();
   return tally;
 }
 
@@ -138,6 +141,8 @@ FreeSpaceEvidence& FreeSpaceEvidence::operator+=(const FreeSpaceEvidence& other)
   num_violating += other.num_violating;
   num_points_of_b += other.num_points_of_b;
   num_violating_of_b += other.num_violating_of_b;
+  num_large += other.num_large;
+  num_large_of_b += other.num_large_of_b;
   num_matches += other.num_matches;
   num_opposed += other.num_opposed;
   return *this;
@@ -161,6 +166,8 @@ FreeSpaceEvidence measure_violations(const SightedScan& a, const SightedScan& b,
   evidence.num_violating = of_a.before + of_b.before;
   evidence.num_points_of_b = of_b.count();
   evidence.num_violating_of_b = of_b.before;
+  evidence.num_large = of_a.large + of_b.large;
+  evidence.num_large_of_b = of_b.large;
   return evidence;
 }
 

@@ -14,9 +14,7 @@ struct InferenceOptions {
   double log_missed_there = -3;
   /// > 0; of an implied hypothesis, from which on that is so: what overlaps less shows less, right or wrong.
   double telling_overlap = 0.2;
-  /// Of the agreement that a slide leaves: up to where a pair holds its pose, and from where on nothing holds it. From
-  /// there on an implied hypothesis says less and less for poses, and nothing where a slide leaves all: it agrees
-  /// wherever it is asked.
+  /// Of the agreement that a slide leaves: up to where a pair holds its pose, and from where on nothing holds it.
   double firm_left = 0.55;   ///< 0..1
   double loose_left = 0.85;  ///< > firm_left
   /// >= 0; of an implied hypothesis that nothing holds: by how much less it counts against poses that it is e times

@@ -16,6 +16,9 @@ struct FreeSpaceEvidence {
   std::size_t num_matches = 0;    ///< surfaces of both that meet, the side known that was seen of each
   std::size_t num_opposed = 0;    ///< of these, opposite sides
   std::size_t num_points_of_b = 0, num_violating_of_b = 0;  ///< of the former two, points of the second scan
+  /// Of those before surfaces, what fills a square degree with the others about it, and of these the second scan's.
+  /// What is smaller may stand between two rays.
+  std::size_t num_large = 0, num_large_of_b = 0;
 
   double violation_share() const { return share(num_violating, num_points); }
   double opposed_share() const { return share(num_opposed, num_matches); }
