@@ -23,7 +23,8 @@ class SeenThroughTest : public ::testing::Test {
   static std::size_t storey(std::size_t scan) { return scan / 3; }
 
   static LookedAt seen(double share, std::size_t points) {
-    return {points, static_cast<std::size_t>(std::lround(share * static_cast<double>(points)))};
+    const auto violations = static_cast<std::size_t>(std::lround(share * static_cast<double>(points)));
+    return {points, violations, violations};
   }
   // Of either's points the other looks at as many, and sees through as large a share.
   void add(std::size_t a, std::size_t b, double share, std::size_t points = kPoints, double log_odds = 0.5) {
@@ -59,6 +60,19 @@ TEST_F(SeenThroughTest, AStoreySeesThroughTheOthersMoreThanThroughItself) {
   EXPECT_NEAR(excess(3, 6), std::log(5) - std::sqrt(0.16 * 2 / 3.0 + 1 / 120.0 + 1 / 900.0), 1e-12);
   EXPECT_EQ(excess(7, 4), excess(3, 6));
   EXPECT_EQ(excess(3, 4), 0) << "of one storey";
+}
+
+// Masts far away: what may stand between two rays.
+TEST_F(SeenThroughTest, WhatIsSmallMakesNoTwins) {
+  for (std::size_t a = 0; a < 9; ++a) {
+    for (std::size_t b = a + 1; b < 9; ++b) {
+      LookedAt looked = seen(storey(a) == storey(b) ? 0.002 : 0.03, kPoints);
+      looked.large = 0;
+      add_ways(a, b, looked, looked);
+    }
+  }
+  EXPECT_TRUE(parts().empty());
+  EXPECT_EQ(excess(3, 6), 0);
 }
 
 TEST_F(SeenThroughTest, WhatRightPosesShowIsNoExcess) {

@@ -92,7 +92,7 @@ TEST(FreeSpace, WhatMayStandBetweenTwoRaysIsSmall) {
   const FreeSpaceEvidence at_wall = measure_violations(a, wall, Isometry3d::Identity());
   EXPECT_GT(at_wall.num_large_of_b, 30u);
   EXPECT_EQ(at_wall.num_large, at_wall.num_large_of_b);
-  EXPECT_EQ(at_wall.num_violating, at_wall.num_large) << "all of it is large";
+  EXPECT_GE(at_wall.num_violating, at_wall.num_large);
   const FreeSpaceEvidence at_post = measure_violations(a, post, Isometry3d::Identity());
   EXPECT_GT(at_post.num_violating_of_b, 0u);
   EXPECT_EQ(at_post.num_large, 0u);

@@ -10,9 +10,6 @@
 namespace tcm_icp {
 namespace {
 
-// Of the agreement that a slide leaves: from here on it is hardly told from all, which is known to 0.03 by the 500 or
-// so points of a pair that agree.
-constexpr double kHardlyHeld = 0.95;
 // Hypotheses whose support would be below log(1 + e^-2) = 0.13 change nothing.
 constexpr double kLeastSupported = -2;
 // Of what taught a set's constant: less does not change it by what would matter.
@@ -52,7 +49,6 @@ PairGraph::PairGraph(std::vector<ComparedPair> pairs, std::vector<PointMoments> 
     for (auto& h : pair.hypotheses) {
       h.mean = h.T_a_b * moments_[pair.b].mean;
       h.telling = h.is_there ? Telling{std::exp(options_.log_missed_there), 1} : telling(h.overlap);
-      h.telling.firm = firm(h.weakest_left);
       if (h.implied && !h.is_there) h.slid = slid(h.weakest_left);
       const Telling found = h.as_found(0);
       const double odds = odds_found(h.log_odds, h.implied, 0);
@@ -168,10 +164,6 @@ Telling PairGraph::telling(double overlap) const {
 double PairGraph::slid(double weakest_left) const {
   const double loose = (weakest_left - options_.firm_left) / (options_.loose_left - options_.firm_left);
   return options_.log_slid * std::clamp(loose, 0.0, 1.0);
-}
-
-double PairGraph::firm(double weakest_left) const {
-  return std::clamp((1 - weakest_left) / (1 - kHardlyHeld), 0.0, 1.0);
 }
 
 double PairGraph::support_of(std::size_t scan, const Eigen::Isometry3d& T, const Component& component) const {

@@ -23,16 +23,13 @@ constexpr double kFittedShare = 0.25;
 /// Of a hypothesis at the right pose: it shows nothing, or else something that is likelier there by its odds.
 struct Telling {
   double missed = 1, shows = 1;  ///< as a search has it that may have missed the pose
-  double firm = 1;               ///< 0..1; share of what it says for the pose that is not said of slides as well
-  double says(double odds) const {
-    const double all = std::log(missed + shows * odds);
-    return all > 0 ? firm * all : all;
-  }
+  double says(double odds) const { return std::log(missed + shows * odds); }
 };
 
-/// Points of a scan at surfaces that another saw, or before them; and of these, before them, but for what is small.
+/// Points of a scan at surfaces that another saw, or before them; of these, before them; and of those, of things that
+/// cannot stand between two rays.
 struct LookedAt {
-  std::size_t points = 0, violations = 0;
+  std::size_t points = 0, violations = 0, large = 0;
 };
 
 /// One pose a pair may have.
@@ -42,8 +39,7 @@ struct PoseHypothesis {
   /// Its fit started from where other pairs put the scans: that it lies there is no coincidence.
   bool implied = false;
   double overlap = 1;  ///< of the pair there
-  /// Of the pair's agreement there, after a slide in its weakest direction: the more, the less holds the pose. Where
-  /// all of it is left, a fit agrees wherever it starts.
+  /// Of the pair's agreement there, after a slide in its weakest direction: the more, the less holds the pose.
   double weakest_left = 0;
   double taught = 0;  ///< of the log-odds: the set's constant, as far as `teachers` have taught it
   /// Implied, and measured at the very poses that others imply, where no fit of the pair has ended: what it shows
@@ -58,9 +54,7 @@ struct PoseHypothesis {
 
   /// @param farther  logarithm of how many times farther off the poses are than what is near
   Telling as_implied(double farther) const {
-    Telling out = telling;
-    if (slid > 0) out.missed = std::min(1.0, telling.missed * std::exp(slid * farther));
-    return out;
+    return slid > 0 ? Telling{std::min(1.0, telling.missed * std::exp(slid * farther)), telling.shows} : telling;
   }
   Telling as_found(double farther) const { return implied ? as_implied(farther) : Telling{}; }
 };
@@ -145,9 +139,9 @@ class PairGraph {
   /// where it is implied. The 1 is of a search that missed the right pose. A fit that starts there misses it rarely: an
   /// implied hypothesis of little odds counts against the poses, by log_missed at the most; by less where less than
   /// telling_overlap of the pair overlaps there, for the right pose seldom shows there either, and what it shows
-  /// counts for less; and by less where it ended farther off and little holds it (log_slid). Where next to nothing
-  /// holds it, it says as much less for the poses. Where a pair was measured at these very poses its
-  /// implied hypotheses about them are not asked, and it may count against them by log_missed_there.
+  /// counts for less; and by less where it ended farther off and little holds it (log_slid). Where a pair was measured
+  /// at these very poses its implied hypotheses about them are not asked, and it may count against them by
+  /// log_missed_there.
   double support(const ComparedPair& pair, const Eigen::Isometry3d& T_a, const Eigen::Isometry3d& T_b) const {
     return agreement(pair, T_a, T_b).support;
   }
@@ -203,7 +197,6 @@ class PairGraph {
   double odds_found(double log_odds, bool implied, double farther) const;
   Telling telling(double overlap) const;
   double slid(double weakest_left) const;
-  double firm(double weakest_left) const;
   // Where the pair was measured there: at these very poses.
   bool is_at(const ComparedPair& pair, const PoseHypothesis& h, const Eigen::Isometry3d& T_a,
              const Eigen::Isometry3d& T_b) const {

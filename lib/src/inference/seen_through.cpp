@@ -22,14 +22,17 @@ SeenThrough::Looked& SeenThrough::Looked::operator+=(const Looked& other) {
   pairs += other.pairs;
   points += other.points;
   violations += other.violations;
+  large += other.large;
   return *this;
 }
 
 double SeenThrough::share(const Looked& looked) { return std::max(looked.violations / looked.points, kUsualShare); }
 
+double SeenThrough::share_between(const Looked& looked) { return std::max(looked.large / looked.points, kUsualShare); }
+
 SeenThrough::Looked SeenThrough::looked_at(const LookedAt& points, double overlap) {
   return {1, static_cast<double>(points.points) * std::min(1.0, overlap / kFullOverlap),
-          static_cast<double>(points.violations)};
+          static_cast<double>(points.violations), static_cast<double>(points.large)};
 }
 
 SeenThrough::SeenThrough(const PairGraph& graph, const Component& component)
@@ -51,7 +54,7 @@ SeenThrough::SeenThrough(const PairGraph& graph, const Component& component)
 }
 
 double SeenThrough::promise(const Looked& between) const {
-  return between.points * share(usual_) * (kTwinRatio - 1) - std::log(kTwinRatio) * between.violations;
+  return between.points * share(usual_) * (kTwinRatio - 1) - std::log(kTwinRatio) * between.large;
 }
 
 bool SeenThrough::tells_within(std::size_t part) const { return parts_.within(part).points >= kEnoughPoints; }
@@ -66,8 +69,8 @@ double SeenThrough::excess_one_way(std::size_t part, std::size_t other) const {
   const Looked& between = parts_.of(part, other);
   const Looked& within = tells_within(part) ? parts_.within(part) : tells_within(other) ? parts_.within(other) : usual_;
   const double of_scans = kScatter * kScatter * (1 / parts_.size(part) + 1 / parts_.size(other));
-  const double of_counts = 1 / (between.points * share(between)) + 1 / (within.points * share(within));
-  return std::max(0.0, std::log(share(between) / share(within)) - std::sqrt(of_scans + of_counts));
+  const double of_counts = 1 / (between.points * share_between(between)) + 1 / (within.points * share(within));
+  return std::max(0.0, std::log(share_between(between) / share(within)) - std::sqrt(of_scans + of_counts));
 }
 
 double SeenThrough::excess(std::size_t a, std::size_t b) const {

@@ -39,11 +39,13 @@ class SeenThrough {
  private:
   // Points of a part, looked at by its own scans or another's; of pairs that overlap little fewer.
   struct Looked {
-    double pairs = 0, points = 0, violations = 0;
+    double pairs = 0, points = 0, violations = 0, large = 0;
     Looked& operator+=(const Looked& other);
   };
 
   static double share(const Looked& looked);
+  // Between parts: what may stand between two rays makes no twins.
+  static double share_between(const Looked& looked);
   static Looked looked_at(const LookedAt& points, double overlap);
   double excess_of_parts(std::size_t part, std::size_t other) const;
   // Of what is seen of `part` from `other`.

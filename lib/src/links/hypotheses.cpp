@@ -160,8 +160,9 @@ PoseHypothesis HypothesisSet::pose_of(const MeasuredPose& measured) const {
   PoseHypothesis out = pose_of(h);
   out.is_there = true;
   const FreeSpaceEvidence& seen = measured.measurements.free_space;
-  out.of_a = {seen.num_points - seen.num_points_of_b, seen.num_large - seen.num_large_of_b};
-  out.of_b = {seen.num_points_of_b, seen.num_large_of_b};
+  out.of_a = {seen.num_points - seen.num_points_of_b, seen.num_violating - seen.num_violating_of_b,
+              seen.num_large - seen.num_large_of_b};
+  out.of_b = {seen.num_points_of_b, seen.num_violating_of_b, seen.num_large_of_b};
   return out;
 }
 

@@ -49,8 +49,8 @@ template <typename Record, MaybeConst<PoseHypothesis> T>
 void transfer(Record& record, T& value) {
   auto& [T_a_b, log_odds, implied, overlap, weakest_left, taught, is_there, of_a, of_b, mean, telling, slid,
          most_support] = value;
-  record(T_a_b, log_odds, implied, overlap, weakest_left, taught, is_there, of_a.points, of_a.violations, of_b.points,
-         of_b.violations, mean, telling.missed, telling.shows, slid, most_support);
+  record(T_a_b, log_odds, implied, overlap, weakest_left, taught, is_there, of_a.points, of_a.violations, of_a.large,
+         of_b.points, of_b.violations, of_b.large, mean, telling.missed, telling.shows, slid, most_support);
 }
 
 template <typename Record, MaybeConst<JudgedHypothesis> T>
