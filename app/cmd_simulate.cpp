@@ -70,11 +70,12 @@ po::options_description describe_frames(SceneSetOptions& s) {
 po::options_description describe(Request& r) {
   SceneSetOptions& s = r.scenes;
   po::options_description what("What to simulate", 110);
-  what.add_options()("scene", bind_option(&r.scene),
-                     "town, block (a closed loop), street (mobile), urban (moving platform), canopy (lake shore), "
-                     "orchard (equal rows), interior, plaza, bays (a building that repeats itself), storeys (alike, "
-                     "with stairs) or town-grid (all streets of a town); each has defaults of its own")  //
-      ("scans", bind_option(&s.num_scans), "number of stations along the scene's path")                  //
+  what.add_options()(
+      "scene", bind_option(&r.scene),
+      "town, block (a closed loop), street (mobile), urban (moving platform), canopy (lake shore), "
+      "orchard (equal rows), tunnel (equal rings), motorway, interior, plaza, bays (a building that repeats "
+      "itself), storeys (alike, with stairs) or town-grid (all streets of a town); each has defaults of its own")  //
+      ("scans", bind_option(&s.num_scans), "number of stations along the scene's path")                            //
       ("spacing", bind_option(&s.station_spacing_m),
        "[m] between stations; those of town and plaza share out their path")  //
       ("overlap", po::value(&r.overlap),
@@ -146,7 +147,7 @@ int cmd_simulate(const Arguments& arguments) {
   po::store(parse_arguments(arguments, description), given);
   if (given.count("help") > 0) {
     std::cout << "Usage: tcm-icp simulate --scene "
-                 "town|block|street|urban|canopy|orchard|interior|plaza|bays|storeys|town-grid "
+                 "town|block|street|urban|canopy|orchard|tunnel|motorway|interior|plaza|bays|storeys|town-grid "
                  "--scans N --out DIR [--seed N] ...\n"
                  "LiDAR scans of a made-up scene, each in a frame of its own, with exact truth.\n\n"
               << description;

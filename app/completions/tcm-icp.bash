@@ -30,7 +30,7 @@ _tcm_icp() {
     --paper.descent) words="scans matches" ;;
     --bin) words="kitti nuscenes" ;;
     --unit) words="m mm ft us-ft" ;;
-    --scene) words="town block street urban canopy orchard interior plaza bays storeys town-grid" ;;
+    --scene) words="town block street urban canopy orchard tunnel motorway interior plaza bays storeys town-grid" ;;
     --sensor) words="terrestrial spinning aerial" ;;
     *) [[ $cur == -* ]] && words=$(_tcm_icp_options "${COMP_WORDS[0]}" "${COMP_WORDS[1]}") ;;
   esac

@@ -39,9 +39,13 @@ SCENES = (
     Scene("plaza", ("--scene", "plaza", "--scans", "6")),
     Scene("bays", ("--scene", "bays", "--scans", "8")),
     Scene("bays_dense", ("--scene", "bays", "--scans", "10", "--step", "0.2", "--thinning", "0.02")),
-    # Checked with since 2026-11-30; the models of that day are fitted without it.
     Scene("storeys", ("--scene", "storeys", "--scans", "12")),
     Scene("orchard", ("--scene", "orchard")),
+    Scene("tunnel", ("--scene", "tunnel")),
+    Scene("tunnel_tripod", ("--scene", "tunnel", "--scans", "8", "--sensor", "terrestrial", "--spacing", "12",
+                            "--thinning", "0.03")),
+    Scene("motorway", ("--scene", "motorway")),
+    Scene("motorway16", ("--scene", "motorway", "--lines", "16", "--spacing", "12")),
 )
 VARIANTS = ("plain", "thin", "crop", "mirror", "stranger", "clutter", "subset", "passers")
 

@@ -21,6 +21,29 @@ inline bool sees_the_same(const RayCaster& caster, const Eigen::Vector3d& from, 
   return here.has_value() == there.has_value() && (!here || std::abs(here->range_m - there->range_m) < 1e-6);
 }
 
+/// Of rays to all sides from the path, each turned with it, the share that goes as far (to 5 cm) from `shift_m` farther
+/// along; over places 2 m apart.
+inline double share_seen_alike(const Scene& scene, double shift_m, std::uint64_t seed) {
+  constexpr double kRange_m = 60, kAlike_m = 0.05;
+  const RayCaster caster(scene.mesh);
+  Rng rng = make_stream(seed, "rays");
+  int num_alike = 0, num_rays = 0;
+  const auto range_m = [&](double along_m, const Eigen::Vector3d& direction) {
+    const PathPoint at = along_path(scene.path, along_m);
+    const Eigen::Isometry3d eye = upright_pose(at.position + Eigen::Vector3d(0, 0, kEye_m), at.heading_rad);
+    const auto hit = caster.first_hit(eye.translation(), eye.linear() * direction, kRange_m);
+    return hit ? hit->range_m : kRange_m;
+  };
+  for (double s = 0; s + shift_m < path_length_m(scene.path); s += 2) {
+    for (int i = 0; i < 200; ++i) {
+      const Eigen::Vector3d direction = uniform_direction(rng);
+      num_alike += std::abs(range_m(s, direction) - range_m(s + shift_m, direction)) < kAlike_m;
+      ++num_rays;
+    }
+  }
+  return static_cast<double>(num_alike) / num_rays;
+}
+
 /// Two scenes of one seed, and one of another.
 inline void expect_same_and_another(const Scene& a, const Scene& b, const Scene& c) {
   ASSERT_EQ(a.mesh.triangles.size(), b.mesh.triangles.size());

@@ -42,6 +42,9 @@ expect 0 "001.ply" simulate --out "$folder/lines" --scene urban --lines 16 --ove
 expect 0 "001.ply" simulate --out "$folder/bays" --scene bays --clutter 2
 expect 0 "001.ply" simulate --out "$folder/storeys" --scene storeys
 expect 0 "001.ply" simulate --out "$folder/orchard" --scene orchard
+expect 0 "001.ply" simulate --out "$folder/tunnel" --scene tunnel
+expect 0 "001.ply" simulate --out "$folder/motorway" --scene motorway --lines 16
+expect 1 "aerial" simulate --out "$folder/c" --scene tunnel --sensor aerial
 expect 1 "clutter" simulate --out "$folder/c" --scene bays --clutter -1
 expect 1 "sonar" simulate --out "$folder/c" --sensor sonar
 expect 1 "num_lines" simulate --out "$folder/c" --scene urban --lines 1

@@ -64,6 +64,21 @@ SceneSetOptions default_orchard(SceneSetOptions options) {
   return options;
 }
 
+SceneSetOptions default_tunnel(SceneSetOptions options) {
+  set_sensor(options, SensorKind::kSpinning);
+  options.scanner.range_noise_m = 0.02;
+  options.num_scans = 10;
+  options.station_spacing_m = 8;
+  return options;
+}
+
+SceneSetOptions default_motorway(SceneSetOptions options) {
+  options = default_tunnel(options);
+  options.scanner.num_lines = 64;
+  options.scanner.max_range_m = 80;
+  return options;
+}
+
 /// A scanner for rooms: nearer, finer, lower.
 SceneSetOptions default_interior(SceneSetOptions options) {
   set_sensor(options, SensorKind::kTerrestrial);
@@ -96,9 +111,9 @@ SceneSetOptions default_storeys(SceneSetOptions options) {
 }  // namespace
 
 std::vector<SceneKind> scene_kinds() {
-  return {SceneKind::kTown,   SceneKind::kBlock,   SceneKind::kStreet,   SceneKind::kUrban,
-          SceneKind::kCanopy, SceneKind::kOrchard, SceneKind::kInterior, SceneKind::kPlaza,
-          SceneKind::kBays,   SceneKind::kStoreys, SceneKind::kTownGrid};
+  return {SceneKind::kTown,    SceneKind::kBlock,   SceneKind::kStreet,   SceneKind::kUrban,    SceneKind::kCanopy,
+          SceneKind::kOrchard, SceneKind::kTunnel,  SceneKind::kMotorway, SceneKind::kInterior, SceneKind::kPlaza,
+          SceneKind::kBays,    SceneKind::kStoreys, SceneKind::kTownGrid};
 }
 
 SceneKind scene_kind_from_name(const std::string& name) {
@@ -124,6 +139,10 @@ std::string scene_name(SceneKind kind) {
       return "canopy";
     case SceneKind::kOrchard:
       return "orchard";
+    case SceneKind::kTunnel:
+      return "tunnel";
+    case SceneKind::kMotorway:
+      return "motorway";
     case SceneKind::kInterior:
       return "interior";
     case SceneKind::kPlaza:
@@ -154,6 +173,10 @@ SceneSetOptions default_scene_set(SceneKind kind) {
       return default_canopy(options);
     case SceneKind::kOrchard:
       return default_orchard(options);
+    case SceneKind::kTunnel:
+      return default_tunnel(options);
+    case SceneKind::kMotorway:
+      return default_motorway(options);
     case SceneKind::kInterior:
       return default_interior(options);
     case SceneKind::kPlaza:

@@ -63,6 +63,10 @@ Scene make_scene(const SceneSetOptions& options, std::uint64_t seed) {
       return make_canopy_scene({std::max(40.0, needed_m)}, rng);
     case SceneKind::kOrchard:
       return make_orchard_scene({std::max(40.0, needed_m)}, rng);
+    case SceneKind::kTunnel:
+      return make_tunnel_scene({std::max(40.0, needed_m)}, rng);
+    case SceneKind::kMotorway:
+      return make_motorway_scene({std::max(40.0, needed_m)}, rng);
     case SceneKind::kInterior:
       // The way into three rooms and back is as long as about 16 m of corridor.
       return make_interior_scene({std::max(15.0, needed_m - 16)}, rng);
@@ -148,7 +152,8 @@ void SceneSetOptions::validate() const {
   require(drift_share >= 0 && drift_share <= 0.01, "drift_share", drift_share, "0..0.01");
   require(max_tilt_deg >= 0 && max_tilt_deg <= 90, "max_tilt_deg", max_tilt_deg, "0..90");
   require(max_shift_m >= 0 && std::isfinite(max_shift_m), "max_shift_m", max_shift_m, ">= 0");
-  const bool has_roof = scene == SceneKind::kInterior || scene == SceneKind::kBays || scene == SceneKind::kStoreys;
+  const bool has_roof = scene == SceneKind::kInterior || scene == SceneKind::kBays || scene == SceneKind::kStoreys ||
+                        scene == SceneKind::kTunnel;
   if (has_roof && scanner.sensor == SensorKind::kAerial)
     throw InvalidOptions("simulate: an aerial sensor sees nothing of " + scene_name(scene) +
                          " but its roof; choose another");

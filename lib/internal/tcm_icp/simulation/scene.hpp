@@ -68,6 +68,26 @@ struct OrchardOptions {
 /// @throws InvalidOptions
 Scene make_orchard_scene(const OrchardOptions& options, Rng& rng);
 
+struct TunnelOptions {
+  double length_m = 80;   ///< [m] 40..2000, of the way
+  void validate() const;  ///< throws InvalidOptions
+};
+
+/// A round tunnel of equal rings, lamps and cabinets every so many rings, pipes along a wall, and a few things left
+/// behind. How wide it is, how its rings are and how it bends is drawn. No end is in sight.
+/// @throws InvalidOptions
+Scene make_tunnel_scene(const TunnelOptions& options, Rng& rng);
+
+struct MotorwayOptions {
+  double length_m = 80;   ///< [m] 40..2000, of the way
+  void validate() const;  ///< throws InvalidOptions
+};
+
+/// A motorway between rails on posts, a wall of equal panels on one side, trees and bushes on the other; lamps, signs
+/// on gantries, marker posts. The path leads along the middle of one carriageway.
+/// @throws InvalidOptions
+Scene make_motorway_scene(const MotorwayOptions& options, Rng& rng);
+
 struct InteriorOptions {
   double length_m = 30;   ///< [m] 15..500, of the corridor
   void validate() const;  ///< throws InvalidOptions

@@ -21,6 +21,8 @@ enum class SceneKind {
   kUrban,     ///< buildings and trees around a corner, from a moving platform with a sensor of low accuracy
   kCanopy,    ///< a lake shore with many small things, under an open tree canopy
   kOrchard,   ///< trees in equal rows
+  kTunnel,    ///< equal rings
+  kMotorway,  ///< rails, a wall of equal panels
   kInterior,  ///< rooms and a corridor
   kPlaza,     ///< a square before a symmetric building
   kBays,      ///< a large building with columns: a place that repeats itself
@@ -28,7 +30,8 @@ enum class SceneKind {
   kTownGrid   ///< all streets of a town of several blocks: loops, and few neighbours for each scan
 };
 
-/// "town", "block", "street", "urban", "canopy", "orchard", "interior", "plaza", "bays", "storeys", "town-grid";
+/// "town", "block", "street", "urban", "canopy", "orchard", "tunnel", "motorway", "interior", "plaza", "bays",
+/// "storeys", "town-grid";
 /// @throws InvalidOptions naming the scenes there are
 SceneKind scene_kind_from_name(const std::string& name);
 std::string scene_name(SceneKind kind);
