@@ -39,6 +39,7 @@ SCENES = (
     Scene("plaza", ("--scene", "plaza", "--scans", "6")),
     Scene("bays", ("--scene", "bays", "--scans", "8")),
     Scene("bays_dense", ("--scene", "bays", "--scans", "10", "--step", "0.2", "--thinning", "0.02")),
+    # From here on added since the models in use were fitted.
     Scene("storeys", ("--scene", "storeys", "--scans", "12")),
     Scene("orchard", ("--scene", "orchard")),
     Scene("tunnel", ("--scene", "tunnel")),
