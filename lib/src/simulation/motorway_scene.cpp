@@ -21,7 +21,7 @@ using Eigen::Vector3d;
 constexpr double kRoadBeyond_m = 100;  // the road goes on beyond both ends of the way
 constexpr double kPanel_m = 4;         // of the wall, from post to post
 constexpr double kVerge_m = 40;        // from the middle to where the ground ends
-constexpr double kRail = 0.6;         // reflectivity
+constexpr double kRail = 0.6;          // reflectivity
 constexpr double kTreeSpacing_m = 7;   // on average, along the verge that has no wall
 constexpr double kLane_m = 3.75;       // width
 
