@@ -16,7 +16,7 @@ and docs/images/decisions-reliability.png alone. Whatever was fitted before, bui
 nothing else: figures in inference_options.hpp are set by it.
 --check fits nothing: it writes docs/results/decisions-unseen.csv, how the probabilities hold that the program states, which is a
 figure of its models where no fit has seen the seeds.
-What DIR has already is used again. Needs numpy and matplotlib; about seven seconds of processor time a set.
+What DIR has already is used again. Needs numpy and matplotlib; about ten seconds of processor time a set.
 """
 
 import argparse
@@ -238,7 +238,7 @@ def main():
     if options.only == "calibration" and len(set(options.seeds)) < 2:
         parser.error("--only calibration holds each seed out in turn: give --seeds two or more")
     count = len(options.seeds) * len(sets.SCENES) * len(sets.VARIANTS)
-    print(f"{count} sets, about {7 * count / options.jobs / 60:.0f} minutes")
+    print(f"{count} sets, about {10 * count / options.jobs / 60:.0f} minutes")
     if options.dry_run:
         return
     options.out.mkdir(parents=True, exist_ok=True)
