@@ -31,7 +31,8 @@ from ply import read_points
 
 # (scene, sensor): the sensor of the scene, and one scene seen by another.
 SCENES = [("town", None), ("block", None), ("street", None), ("urban", None), ("canopy", None),
-          ("orchard", None), ("tunnel", None), ("motorway", None), ("interior", None), ("plaza", None), ("bays", None), ("storeys", None), ("canopy", "aerial")]
+          ("orchard", None), ("tunnel", None), ("motorway", None), ("interior", None), ("plaza", None), ("bays", None),
+          ("storeys", None), ("canopy", "aerial")]
 
 
 def load(folder):
