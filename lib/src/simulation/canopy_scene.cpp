@@ -2,17 +2,16 @@
 
 #include <cmath>
 #include <numbers>
-#include <string>
 
 #include "simulation/draw.hpp"
 #include "simulation/overhead_line.hpp"
 #include "simulation/park_furniture.hpp"
+#include "simulation/require_length.hpp"
 #include "simulation/shore.hpp"
 #include "simulation/site_plan.hpp"
 #include "simulation/street_furniture.hpp"
 #include "simulation/town_objects.hpp"
 #include "simulation/tree.hpp"
-#include "tcm_icp/core/error.hpp"
 #include "tcm_icp/simulation/scene.hpp"
 
 namespace tcm_icp {
@@ -148,10 +147,7 @@ class Park {
 
 }  // namespace
 
-void CanopyOptions::validate() const {
-  if (!(length_m >= 40 && length_m <= 2000))
-    throw InvalidOptions("canopy: length_m = " + std::to_string(length_m) + "; needs 40..2000");
-}
+void CanopyOptions::validate() const { require_length("canopy: length_m", length_m, 40, 2000); }
 
 Scene make_canopy_scene(const CanopyOptions& options, Rng& rng) {
   options.validate();

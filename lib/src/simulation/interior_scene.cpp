@@ -1,11 +1,10 @@
 // A storey, and the way through it.
 
 #include <algorithm>
-#include <string>
 
 #include "simulation/draw.hpp"
+#include "simulation/require_length.hpp"
 #include "simulation/storey.hpp"
-#include "tcm_icp/core/error.hpp"
 
 namespace tcm_icp {
 
@@ -87,10 +86,7 @@ void Storey::keep_path_free() {
   }
 }
 
-void InteriorOptions::validate() const {
-  if (!(length_m >= 15 && length_m <= 500))
-    throw InvalidOptions("interior: length_m = " + std::to_string(length_m) + "; needs 15..500");
-}
+void InteriorOptions::validate() const { require_length("interior: length_m", length_m, 15, 500); }
 
 Scene make_interior_scene(const InteriorOptions& options, Rng& rng) {
   options.validate();

@@ -1,15 +1,14 @@
 // A motorway: rails on posts, a wall of equal panels, lamps; what differs from place to place stands beyond.
 
 #include <numbers>
-#include <string>
 
 #include "simulation/arc.hpp"
 #include "simulation/box.hpp"
 #include "simulation/draw.hpp"
 #include "simulation/ground.hpp"
+#include "simulation/require_length.hpp"
 #include "simulation/town_objects.hpp"
 #include "simulation/tree.hpp"
-#include "tcm_icp/core/error.hpp"
 #include "tcm_icp/simulation/scene.hpp"
 
 namespace tcm_icp {
@@ -142,10 +141,7 @@ class MotorwayBuilder {
 
 }  // namespace
 
-void MotorwayOptions::validate() const {
-  if (!(length_m >= 40 && length_m <= 2000))
-    throw InvalidOptions("motorway: length_m = " + std::to_string(length_m) + "; needs 40..2000");
-}
+void MotorwayOptions::validate() const { require_length("motorway: length_m", length_m, 40, 2000); }
 
 Scene make_motorway_scene(const MotorwayOptions& options, Rng& rng) {
   options.validate();

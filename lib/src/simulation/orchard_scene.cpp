@@ -1,12 +1,11 @@
 // An orchard: trees in equal rows, so that every scan looks like the same scan one tree or one row farther.
 
 #include <numbers>
-#include <string>
 
 #include "simulation/box.hpp"
 #include "simulation/draw.hpp"
 #include "simulation/ground.hpp"
-#include "tcm_icp/core/error.hpp"
+#include "simulation/require_length.hpp"
 #include "tcm_icp/simulation/scene.hpp"
 
 namespace tcm_icp {
@@ -39,10 +38,7 @@ double row_m(int row) { return (row - 0.5 * (kRows - 1)) * kRow_m; }
 
 }  // namespace
 
-void OrchardOptions::validate() const {
-  if (!(length_m >= 40 && length_m <= 2000))
-    throw InvalidOptions("orchard: length_m = " + std::to_string(length_m) + "; needs 40..2000");
-}
+void OrchardOptions::validate() const { require_length("orchard: length_m", length_m, 40, 2000); }
 
 Scene make_orchard_scene(const OrchardOptions& options, Rng& rng) {
   options.validate();

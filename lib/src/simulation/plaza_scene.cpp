@@ -2,18 +2,17 @@
 
 #include <cmath>
 #include <numbers>
-#include <string>
 
 #include "simulation/city_building.hpp"
 #include "simulation/draw.hpp"
 #include "simulation/ground.hpp"
 #include "simulation/palace.hpp"
 #include "simulation/park_furniture.hpp"
+#include "simulation/require_length.hpp"
 #include "simulation/site_plan.hpp"
 #include "simulation/street_furniture.hpp"
 #include "simulation/town_objects.hpp"
 #include "simulation/tree.hpp"
-#include "tcm_icp/core/error.hpp"
 #include "tcm_icp/simulation/scene.hpp"
 
 namespace tcm_icp {
@@ -125,10 +124,7 @@ class Square {
 
 }  // namespace
 
-void PlazaOptions::validate() const {
-  if (!(half_size_m >= 22 && half_size_m <= 200))
-    throw InvalidOptions("plaza: half_size_m = " + std::to_string(half_size_m) + "; needs 22..200");
-}
+void PlazaOptions::validate() const { require_length("plaza: half_size_m", half_size_m, 22, 200); }
 
 Scene make_plaza_scene(const PlazaOptions& options, Rng& rng) {
   options.validate();

@@ -65,10 +65,8 @@ SceneSetOptions default_orchard(SceneSetOptions options) {
 }
 
 SceneSetOptions default_tunnel(SceneSetOptions options) {
-  set_sensor(options, SensorKind::kSpinning);
+  options = default_orchard(options);
   options.scanner.range_noise_m = 0.02;
-  options.num_scans = 10;
-  options.station_spacing_m = 8;
   return options;
 }
 

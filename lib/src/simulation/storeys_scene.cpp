@@ -4,6 +4,7 @@
 #include <string>
 
 #include "simulation/box.hpp"
+#include "simulation/require_length.hpp"
 #include "simulation/stairs.hpp"
 #include "simulation/storey.hpp"
 #include "tcm_icp/core/error.hpp"
@@ -82,8 +83,7 @@ void add_storey_path(Points& path, const Points& room_to_end, int storey, const 
 void StoreysOptions::validate() const {
   if (!(storeys >= 2 && storeys <= 10))
     throw InvalidOptions("storeys: storeys = " + std::to_string(storeys) + "; needs 2..10");
-  if (!(length_m >= 12 && length_m <= 500))
-    throw InvalidOptions("storeys: length_m = " + std::to_string(length_m) + "; needs 12..500");
+  require_length("storeys: length_m", length_m, 12, 500);
 }
 
 Scene make_storeys_scene(const StoreysOptions& options, Rng& rng) {

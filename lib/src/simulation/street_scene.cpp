@@ -1,25 +1,17 @@
 // The middle lines of simulated streets: a winding one, one around a corner, one around a block, and all of a town.
 
 #include <cmath>
-#include <string>
 
 #include "simulation/draw.hpp"
+#include "simulation/require_length.hpp"
 #include "simulation/street_builder.hpp"
 #include "simulation/tree.hpp"
-#include "tcm_icp/core/error.hpp"
 #include "tcm_icp/simulation/scene.hpp"
 
 namespace tcm_icp {
 namespace {
 
 using Eigen::Vector3d;
-
-void require_length(const std::string& field, double value, int least, int most = 20000) {
-  if (!(value >= least && value <= most)) {
-    throw InvalidOptions(field + " = " + std::to_string(value) + "; needs " + std::to_string(least) + ".." +
-                         std::to_string(most));
-  }
-}
 
 /// Chaikin's corner cutting: each corner becomes two of half the angle. The ends stay.
 Points with_cut_corners(const Points& path) {
@@ -35,11 +27,11 @@ Points with_cut_corners(const Points& path) {
 
 }  // namespace
 
-void StreetOptions::validate() const { require_length("street: length_m", length_m, 40); }
+void StreetOptions::validate() const { require_length("street: length_m", length_m, 40, 20000); }
 
-void UrbanOptions::validate() const { require_length("urban: length_m", length_m, 40); }
+void UrbanOptions::validate() const { require_length("urban: length_m", length_m, 40, 20000); }
 
-void BlockOptions::validate() const { require_length("block: perimeter_m", perimeter_m, 120); }
+void BlockOptions::validate() const { require_length("block: perimeter_m", perimeter_m, 120, 20000); }
 
 void TownGridOptions::validate() const { require_length("town-grid: length_m", length_m, 400, 50000); }
 

@@ -2,13 +2,12 @@
 
 #include <cmath>
 #include <numbers>
-#include <string>
 #include <vector>
 
 #include "simulation/arc.hpp"
 #include "simulation/box.hpp"
 #include "simulation/draw.hpp"
-#include "tcm_icp/core/error.hpp"
+#include "simulation/require_length.hpp"
 #include "tcm_icp/simulation/scene.hpp"
 
 namespace tcm_icp {
@@ -55,12 +54,18 @@ class TunnelBuilder {
  private:
   double half_floor_m() const { return std::sqrt(radius_m_ * radius_m_ - centre_m_ * centre_m_); }
 
-  /// `beyond_m` outside of the lining at corner `k` of its segments.
-  Vector3d on_lining(double along_m, int k, double beyond_m) const {
+  /// A corner of a segment: the `k`th of its ring, `beyond_m` outside of the lining.
+  struct Corner {
+    double along_m;
+    int k;
+    double beyond_m;
+  };
+
+  Vector3d at(const Corner& c) const {
     const double edge = -std::asin(centre_m_ / radius_m_);
-    const double angle = edge + (std::numbers::pi - 2 * edge) * k / kSegments;
-    const double r = radius_m_ + beyond_m;
-    return axis_.at(along_m) * Vector3d(0, r * std::cos(angle), centre_m_ + r * std::sin(angle));
+    const double angle = edge + (std::numbers::pi - 2 * edge) * c.k / kSegments;
+    const double r = radius_m_ + c.beyond_m;
+    return axis_.at(c.along_m) * Vector3d(0, r * std::cos(angle), centre_m_ + r * std::sin(angle));
   }
 
   void line(double begin_m) {
@@ -75,14 +80,6 @@ class TunnelBuilder {
       add_step({end, k, -kUneven_m}, {end, k + 1, kJoint_m});
     }
   }
-
-  struct Corner {
-    double along_m;
-    int k;
-    double beyond_m;
-  };
-
-  Vector3d at(const Corner& c) const { return on_lining(c.along_m, c.k, c.beyond_m); }
 
   void add_lining(const Corner& a, const Corner& b) {
     add_quad(scene_.mesh, at(a), at({b.along_m, a.k, a.beyond_m}), at(b), at({a.along_m, b.k, b.beyond_m}), kLining);
@@ -136,10 +133,7 @@ class TunnelBuilder {
 
 }  // namespace
 
-void TunnelOptions::validate() const {
-  if (!(length_m >= 40 && length_m <= 2000))
-    throw InvalidOptions("tunnel: length_m = " + std::to_string(length_m) + "; needs 40..2000");
-}
+void TunnelOptions::validate() const { require_length("tunnel: length_m", length_m, 40, 2000); }
 
 Scene make_tunnel_scene(const TunnelOptions& options, Rng& rng) {
   options.validate();
