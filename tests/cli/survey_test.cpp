@@ -1,8 +1,10 @@
 // --control, --gnss, --fix: the town in the frame of surveyors.
 
+#include <algorithm>
 #include <cmath>
 #include <iomanip>
 #include <sstream>
+#include <utility>
 
 #include "cli_test.hpp"
 #include "result_files.hpp"
@@ -227,6 +229,55 @@ TEST_F(RegisterSurvey, AScanThatNoLinkHoldsFollowsItsOwnTargets) {
   EXPECT_LT(difference_m(poses.scans[3].T_reference_scan, T_alone, 5), 0.02);
   EXPECT_EQ(poses.scans[4].status, ScanStatus::kUnregistered);
   EXPECT_LT(difference_m(poses.scans[0].T_reference_scan, pose(0), 5), 0.03);
+}
+
+// Rings, lamps and niches of a tunnel repeat: without positions scans lie on one another, a whole period off.
+class RegisterTunnel : public CliTest {
+ protected:
+  // Scans that were registered more than a metre from where they belong, and those that were registered at all.
+  std::pair<int, int> wrong_and_registered(const Words& options) {
+    Words command{"register"};
+    for (const auto& scan : truth_.scans) command.push_back("tunnel/" + scan.file);
+    const RunResult result = run(command + Words{"--out", "out", "--force"} + options);
+    EXPECT_TRUE(result.exit_code == 0 || result.exit_code == 3) << result.err;
+    const PoseFile poses = read_pose_file(folder() / "out/poses.json");
+    const auto is_reference = [](const auto& scan) { return scan.status == ScanStatus::kReference; };
+    const auto reference = std::find_if(poses.scans.begin(), poses.scans.end(), is_reference) - poses.scans.begin();
+    const auto at = [](const auto& all, auto i) { return all[static_cast<std::size_t>(i)]; };
+    std::pair<int, int> out{0, 0};
+    for (std::size_t i = 0; i < poses.scans.size(); ++i) {
+      if (poses.scans[i].status == ScanStatus::kUnregistered) continue;
+      ++out.second;
+      const Eigen::Isometry3d truth = at(truth_.scans, reference).T_world_scan.inverse() * truth_.scans[i].T_world_scan;
+      const Eigen::Isometry3d found =
+          at(poses.scans, reference).T_reference_scan.inverse() * poses.scans[i].T_reference_scan;
+      if (difference_m(found, truth, 0) > 1) ++out.first;
+    }
+    return out;
+  }
+
+  Truth truth_;
+};
+
+TEST_F(RegisterTunnel, PositionsKeepScansFromLyingAPeriodOff) {
+  ASSERT_EQ(run({"simulate", "--scene", "tunnel", "--scans", "5", "--seed", "1", "--step", "0.3", "--out", "tunnel"})
+                .exit_code,
+            0);
+  truth_ = read_truth(folder() / "tunnel/truth.json");
+  const auto [wrong, registered] = wrong_and_registered({});
+  ASSERT_GT(wrong, 0) << "of " << registered;
+  const nlohmann::json written = read_json(folder() / "tunnel/truth.json");
+  std::string csv = "scan,x,y,z,X,Y,Z,sigma\n";
+  for (std::size_t i = 0; i < truth_.scans.size(); ++i) {
+    const auto p = written["scans"][i]["scanner"].get<std::vector<double>>();
+    const Eigen::Vector3d scanner(p[0], p[1], p[2]);
+    csv += truth_.scans[i].file + "," + numbers(scanner) + "," + numbers(truth_.scans[i].T_world_scan * scanner) +
+           ",0.05\n";
+  }
+  folder_.write("gnss.csv", csv);
+  const auto [wrong_with, registered_with] = wrong_and_registered({"--gnss", "gnss.csv"});
+  EXPECT_EQ(wrong_with, 0);
+  EXPECT_GE(registered_with, 3);
 }
 
 #ifdef TCM_ICP_HAVE_PROJ

@@ -15,6 +15,7 @@ namespace tcm_icp {
 namespace {
 
 using Eigen::Isometry3d;
+using Eigen::Vector3d;
 using testing::kNoise_m;
 using testing::kVoxel_m;
 using Pairs = std::vector<std::pair<std::size_t, std::size_t>>;
@@ -96,6 +97,32 @@ TEST_F(HypothesisSetTest, ScoringPutsTheLikeliestFirst) {
   EXPECT_GT(of(0, 1).front().log_odds, of(0, 1).back().log_odds);
   EXPECT_EQ(set_->log_odds(0, 1), of(0, 1).front().log_odds);
   EXPECT_EQ(set_->log_odds(1, 0), set_->log_odds(0, 1)) << "in either order";
+}
+
+// Two poses that the pair alone does not tell apart: where the scanners stood does.
+TEST_F(HypothesisSetTest, WhatIsKnownOfTheSurveyCountsBesideWhatThePairShows) {
+  std::vector<SurveyedScan> surveyed(4);
+  for (const std::size_t i : {0U, 1U}) {
+    surveyed[i].points.push_back({std::to_string(i), Vector3d::Zero(), T_[i].translation(), 0.02, 0});
+  }
+  const Isometry3d wrong = T_[0].inverse() * T_[1] * Eigen::Translation3d(0, 5, 0);
+  ASSERT_GT(std::abs(wrong.translation().norm() - (T_[0].translation() - T_[1].translation()).norm()), 2);
+  HypothesisSet set(kVoxel_m, kNoise_m, set_->moments(), {surveyed, kVoxel_m});
+  for (HypothesisSet* s : {&*set_, &set}) {
+    s->add(0, 1, {aside(0, 1, 5), aside(0, 1, 0)});
+    s->add(0, 2, {aside(0, 2, 5)});
+    s->score();
+  }
+  EXPECT_EQ(of(0, 1)[0].log_odds, of(0, 1)[1].log_odds);
+  const auto& known = set.pairs().at({0, 1});
+  EXPECT_TRUE(testing::is_pose_near(T_[0].inverse() * T_[1], known[0].T_a_b, 1e-9, 1e-9));
+  EXPECT_EQ(known[0].log_odds, of(0, 1)[0].log_odds);
+  EXPECT_EQ(known[1].log_odds, known[0].log_odds - 8);
+  EXPECT_EQ(known[1].by_survey, -8);
+  EXPECT_EQ(set.log_odds(0, 2), set_->log_odds(0, 2)) << "of the third scan nothing is known";
+  const auto there = set.compared_there(
+      {{0, 1, wrong, testing::usual_link()}, {0, 1, T_[0].inverse() * T_[1], testing::usual_link()}});
+  EXPECT_NEAR(there[0].hypotheses[0].log_odds, there[1].hypotheses[0].log_odds - 8, 1e-9);
 }
 
 TEST_F(HypothesisSetTest, TheSecondBestIsOfClearlyDifferentPosesOfThePair) {

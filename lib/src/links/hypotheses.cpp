@@ -44,8 +44,8 @@ LinkFeatures features_of(const LinkHypothesis& h, const SetReference& set) {
                        set);
 }
 
-HypothesisSet::HypothesisSet(double voxel_m, double noise_m, std::vector<PointMoments> moments)
-    : voxel_m_(voxel_m), noise_m_(noise_m), moments_(std::move(moments)) {
+HypothesisSet::HypothesisSet(double voxel_m, double noise_m, std::vector<PointMoments> moments, SurveyEvidence survey)
+    : voxel_m_(voxel_m), noise_m_(noise_m), moments_(std::move(moments)), survey_(std::move(survey)) {
   reference_ = SetReference::of(voxel_m_, noise_m_, {});
 }
 
@@ -84,11 +84,31 @@ void HypothesisSet::score() {
   for (auto& [pair, hypotheses] : pairs_) {
     for (auto& h : hypotheses) {
       h.second_best_ratio = second_best_ratio(h, hypotheses, moments_[pair.second], same_m());
+      h.by_survey = survey_.log_odds(pair.first, pair.second, h.T_a_b);
       h.log_odds = in_set(h, hypothesis_log_odds(features_of(h, reference_)));
+    }
+  }
+  blunders_ = survey_blunders(likely_by_survey(), moments_.size());
+  for (auto& [pair, hypotheses] : pairs_) {
+    for (auto& h : hypotheses) {
+      if (is_blunder(pair.first) || is_blunder(pair.second)) h.by_survey = 0;
+      h.log_odds += h.by_survey;
     }
     std::stable_sort(hypotheses.begin(), hypotheses.end(),
                      [](const LinkHypothesis& x, const LinkHypothesis& y) { return x.log_odds > y.log_odds; });
   }
+}
+
+std::vector<PairBySurvey> HypothesisSet::likely_by_survey() const {
+  std::vector<PairBySurvey> out;
+  for (const auto& [pair, hypotheses] : pairs_) {
+    double most = -std::numeric_limits<double>::infinity();
+    for (const LinkHypothesis& h : hypotheses) {
+      if (h.log_odds > 0) most = std::max(most, h.by_survey);
+    }
+    if (std::isfinite(most)) out.push_back({pair.first, pair.second, most});
+  }
+  return out;
 }
 
 void HypothesisSet::drop_unlikely_deep() {
@@ -156,7 +176,10 @@ PoseHypothesis HypothesisSet::pose_of(const MeasuredPose& measured) const {
   if (const auto known = pairs_.find({measured.a, measured.b}); known != pairs_.end()) {
     h.second_best_ratio = second_best_ratio(h, known->second, moments_[measured.b], same_m());
   }
-  h.log_odds = in_set(h, hypothesis_log_odds(features_of(h, reference_)));
+  if (!is_blunder(measured.a) && !is_blunder(measured.b)) {
+    h.by_survey = survey_.log_odds(measured.a, measured.b, h.T_a_b);
+  }
+  h.log_odds = in_set(h, hypothesis_log_odds(features_of(h, reference_))) + h.by_survey;
   PoseHypothesis out = pose_of(h);
   out.is_there = true;
   const FreeSpaceEvidence& seen = measured.measurements.free_space;

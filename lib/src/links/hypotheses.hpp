@@ -10,6 +10,7 @@
 #include "core/acceptance.hpp"
 #include "inference/compared_pairs.hpp"
 #include "inference/cuts.hpp"
+#include "survey/survey_evidence.hpp"
 #include "tcm_icp/coarse/pose_candidate.hpp"
 #include "tcm_icp/core/rigid_transform.hpp"
 #include "tcm_icp/links/link_measurements.hpp"
@@ -30,6 +31,7 @@ struct LinkHypothesis {
   LinkMeasurements measurements;
   SearchStage stage = SearchStage::kFirst;
   double second_best_ratio = 0;  ///< SearchMeasurements::second_best_ratio
+  double by_survey = 0;          ///< part of log_odds: SurveyEvidence::log_odds(), where that is no blunder
   double log_odds = 0;           ///< that it is right, by the pair and what its set usually shows
 
   bool is_later() const { return stage != SearchStage::kFirst; }
@@ -53,7 +55,8 @@ struct MeasuredPose {
 class HypothesisSet {
  public:
   /// @param moments  of each scan's points
-  HypothesisSet(double voxel_m, double noise_m, std::vector<PointMoments> moments);
+  /// @param survey   of the same scans, in the frames that poses are between
+  HypothesisSet(double voxel_m, double noise_m, std::vector<PointMoments> moments, SurveyEvidence survey = {});
 
   /// A pair that was compared, with or without a hypothesis. A pose it has already is left as it is.
   void add(std::size_t a, std::size_t b, const std::vector<LinkHypothesis>& hypotheses);
@@ -107,18 +110,24 @@ class HypothesisSet {
   PoseHypothesis pose_of(const LinkHypothesis& h) const;
   PoseHypothesis pose_of(const MeasuredPose& measured) const;
 
+  /// Of each pair that has hypotheses above even odds. @pre log_odds are by what pairs show alone
+  std::vector<PairBySurvey> likely_by_survey() const;
+  bool is_blunder(std::size_t scan) const { return !blunders_.empty() && blunders_[scan]; }
+
   /// Log-odds in this set of a hypothesis with such log-odds by itself; and the other way round.
   double in_set(const LinkHypothesis& h, double by_itself) const {
     return h.is_later() ? reference_.later_constant + reference_.later_slope * by_itself
                         : reference_.constant + by_itself;
   }
   double by_itself(const LinkHypothesis& h) const {
-    return h.is_later() ? (h.log_odds - reference_.later_constant) / reference_.later_slope
-                        : h.log_odds - reference_.constant;
+    const double in_set = h.log_odds - h.by_survey;
+    return h.is_later() ? (in_set - reference_.later_constant) / reference_.later_slope : in_set - reference_.constant;
   }
 
   double voxel_m_, noise_m_;
   std::vector<PointMoments> moments_;
+  SurveyEvidence survey_;
+  std::vector<bool> blunders_;  // of each scan, whether what is known of it is set aside; empty before score()
   std::map<std::pair<std::size_t, std::size_t>, std::vector<LinkHypothesis>> pairs_;
   SetReference reference_;
   // What the constant of those that the first search found was learnt from.

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "core/acceptance.hpp"
+#include "core/figure_text.hpp"
 #include "inference/configuration.hpp"
 #include "inference/cuts.hpp"
 #include "inference/implied_poses.hpp"
@@ -35,6 +36,7 @@ struct Inferred {
 };
 
 constexpr double kMostLead = 12;  // what is less likely by so much is asked by nobody before poses are decided on
+constexpr double kSurePlace = 1;  // coarse voxel: standard deviation of a scan that no link ties to the reference
 constexpr int kLeastStarts = 2;   // of large sets, where there are other hypotheses
 constexpr int kMaxLearnt = 4;     // rounds: what the set's constant is, and which poses are likeliest with it
 constexpr int kMaxImplied = 3;    // rounds: what they show may move scans, which implies other poses
@@ -103,7 +105,8 @@ class RobustPipeline {
       moments.push_back(scans_[i].moments);
       noise_m.push_back(in_.sampled[i].scan.noise_m);
     }
-    hypotheses_.emplace(resolutions_.coarse_m, median(noise_m), std::move(moments));
+    hypotheses_.emplace(resolutions_.coarse_m, median(noise_m), std::move(moments),
+                        survey_evidence(in_, scans_, resolutions_.coarse_m));
     const LinkSearchOptions options{in_.options.formulation, in_.options.lp, in_.options.level,
                                     !leaves_out(LeftOut::kFeatures), !leaves_out(LeftOut::kSlides)};
     PairSearch search(scans_, options, in_.context, kept_);
@@ -345,9 +348,14 @@ class RobustPipeline {
     pose.T_reference_scan = *placement_.T_survey_scan[scan];
     if (pose.status != ScanStatus::kUnregistered) return;
     pose.status = ScanStatus::kRegistered;
-    pose.verdict = placement_.is_confirmed[scan] ? Verdict::kAccepted : Verdict::kDoubtful;
+    const auto& sigma = placement_.sigma_in_voxels[scan];
+    const bool is_sure = sigma.has_value() && *sigma <= kSurePlace;
+    pose.verdict = is_sure && placement_.is_confirmed[scan] ? Verdict::kAccepted : Verdict::kDoubtful;
     pose.pose_in_component.reset();
-    pose.reason = "in the survey frame by " + result_.survey.defined_by + " of its own alone (" + pose.reason + ")";
+    const std::string how_loosely =
+        is_sure || !sigma ? "" : " that leave it loose by " + figure(*sigma) + " coarse voxels";
+    pose.reason = "in the survey frame by " + result_.survey.defined_by + " of its own alone" + how_loosely + " (" +
+                  pose.reason + ")";
   }
 
   // What the final poses contradict is named.

@@ -4,9 +4,11 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "adjustment/uncertainty.hpp"
 #include "core/figure_text.hpp"
+#include "pipeline/measured_scan.hpp"
 #include "pipeline/scan_set.hpp"
 #include "survey/survey_adjustment.hpp"
 
@@ -15,6 +17,33 @@ namespace {
 
 // Of scans that --fix keeps: tight beside any other figure, and loose enough for doubles.
 constexpr double kFixedSigma_m = 1e-5;
+
+bool is_fixed(const PipelineInput& in, std::size_t scan) {
+  const auto& fixed = in.survey.fixed;
+  return std::find(fixed.begin(), fixed.end(), in.files[scan]) != fixed.end();
+}
+
+const PosePrior* prior_of(const PipelineInput& in, std::size_t scan) {
+  const auto& priors = in.survey.priors;
+  const auto at =
+      std::find_if(priors.begin(), priors.end(), [&](const PosePrior& prior) { return prior.scan == in.files[scan]; });
+  return at == priors.end() ? nullptr : &*at;
+}
+
+double level_of(const PipelineInput& in, std::size_t scan) {
+  double sigma_rad = in.survey.sigma_level_rad;
+  for (const ScanLevel& level : in.survey.levels) {
+    if (level.scan == in.files[scan]) sigma_rad = level.sigma_rad;
+  }
+  return sigma_rad;
+}
+
+/// Rms distance of its points from their middle.
+double radius_m(const PreparedScan& scan) { return std::sqrt(scan.moments.covariance.trace()); }
+
+double fixed_sigma_rad(const PreparedScan& scan) {
+  return radius_m(scan) > 0 ? kFixedSigma_m / radius_m(scan) : kFixedSigma_m;
+}
 
 /// Scans that share a local frame.
 struct Members {
@@ -34,6 +63,7 @@ class SurveyFrame {
     for (const auto& point : in_.survey.points) record_.points.push_back({point});
     out_.T_survey_scan.resize(in_.files.size());
     out_.is_confirmed.assign(in_.files.size(), false);
+    out_.sigma_in_voxels.resize(in_.files.size());
   }
 
   SurveyPlacement run(const std::vector<SettledComponent>& settled) {
@@ -60,29 +90,10 @@ class SurveyFrame {
       if (point.use == PointUse::kControl) return point.given.array().round();
     }
     for (std::size_t i = 0; i < in_.files.size(); ++i) {
-      if (is_fixed(i) || prior_of(i) != nullptr) return (*T_init_[i] * scans_[i].moments.mean).array().round();
+      if (is_fixed(in_, i) || prior_of(in_, i) != nullptr)
+        return (*T_init_[i] * scans_[i].moments.mean).array().round();
     }
     return Eigen::Vector3d::Zero();
-  }
-
-  bool is_fixed(std::size_t scan) const {
-    const auto& fixed = in_.survey.fixed;
-    return std::find(fixed.begin(), fixed.end(), in_.files[scan]) != fixed.end();
-  }
-
-  const PosePrior* prior_of(std::size_t scan) const {
-    const auto& priors = in_.survey.priors;
-    const auto at = std::find_if(priors.begin(), priors.end(),
-                                 [&](const PosePrior& prior) { return prior.scan == in_.files[scan]; });
-    return at == priors.end() ? nullptr : &*at;
-  }
-
-  double level_of(std::size_t scan) const {
-    double sigma_rad = in_.survey.sigma_level_rad;
-    for (const ScanLevel& level : in_.survey.levels) {
-      if (level.scan == in_.files[scan]) sigma_rad = level.sigma_rad;
-    }
-    return sigma_rad;
   }
 
   // The frame is that of these scans, whatever their observations determine.
@@ -155,15 +166,14 @@ class SurveyFrame {
     }
     for (std::size_t k = 0; k < members.scans.size(); ++k) {
       const std::size_t i = members.scans[k];
-      if (is_fixed(i)) {
-        const double radius_m = std::sqrt(scans_[i].moments.covariance.trace());
+      if (is_fixed(in_, i)) {
         out.poses.push_back({in_.files[i], k, Eigen::Translation3d(-record_.origin) * *T_init_[i],
-                             radius_m > 0 ? kFixedSigma_m / radius_m : kFixedSigma_m, kFixedSigma_m, true});
-      } else if (const PosePrior* const prior = prior_of(i)) {
+                             fixed_sigma_rad(scans_[i]), kFixedSigma_m, true});
+      } else if (const PosePrior* const prior = prior_of(in_, i)) {
         out.poses.push_back({in_.files[i], k, Eigen::Translation3d(-record_.origin) * *T_init_[i],
                              prior->sigma_rotation_rad, prior->sigma_position_m});
       }
-      if (const double sigma_rad = level_of(i); sigma_rad > 0) out.levels.push_back({k, sigma_rad});
+      if (const double sigma_rad = level_of(in_, i); sigma_rad > 0) out.levels.push_back({k, sigma_rad});
     }
     return out;
   }
@@ -225,14 +235,16 @@ class SurveyFrame {
       const std::size_t i = members.scans[k];
       out_.T_survey_scan[i] = Eigen::Translation3d(record_.origin) * solution.T_survey_scan[k] *
                               Eigen::Translation3d(-in_.sampled[i].scan.origin);
-      if (is_fixed(i)) out_.T_survey_scan[i] = in_.initial_poses[i];
-      out_.is_confirmed[i] =
-          members.settled != nullptr || (!is_fixed(i) && prior_of(i) == nullptr && solution.degrees_of_freedom > 0 &&
-                                         solution.chi_squared <= chi_squared_limit(solution.degrees_of_freedom));
+      if (is_fixed(in_, i)) out_.T_survey_scan[i] = in_.initial_poses[i];
+      out_.is_confirmed[i] = members.settled != nullptr ||
+                             (!is_fixed(in_, i) && prior_of(in_, i) == nullptr && solution.degrees_of_freedom > 0 &&
+                              solution.chi_squared <= chi_squared_limit(solution.degrees_of_freedom));
       PoseUncertainty& pose = uncertainty[i];
       pose.centre = solution.T_survey_local * network.frames[k].centre;
       pose.determined = solution.is_determined() && solution.covariance[k].allFinite();
       if (pose.determined) pose.covariance = solution.covariance[k];
+      out_.sigma_in_voxels[i] =
+          sigma_in_voxels(pose, scans_[i].moments, solution.T_survey_scan[k], resolutions_.coarse_m);
     }
     for (std::size_t k = 0; k < solution.points.size(); ++k) take(solution.points[k], record_.points[source_[k]]);
     for (LinkRecord& link : result_.links) {
@@ -280,6 +292,29 @@ class SurveyFrame {
 };
 
 }  // namespace
+
+SurveyEvidence survey_evidence(const PipelineInput& input, const std::vector<PreparedScan>& scans, double voxel_m) {
+  if (input.survey.empty() && input.survey.sigma_level_rad == 0 && input.survey.levels.empty()) return {};
+  const InitialPoses T_init = initial_local_poses(input.initial_poses, input.sampled, false);
+  std::vector<SurveyedScan> surveyed(scans.size());
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    SurveyedScan& out = surveyed[i];
+    out.middle = scans[i].moments.mean;
+    out.radius_m = radius_m(scans[i]);
+    out.sigma_level_rad = level_of(input, i);
+    if (is_fixed(input, i)) {
+      out.pose = {*T_init[i], kFixedSigma_m, fixed_sigma_rad(scans[i])};
+    } else if (const PosePrior* const prior = prior_of(input, i)) {
+      out.pose = {*T_init[i], prior->sigma_position_m, prior->sigma_rotation_rad};
+    }
+    for (const ControlPoint& p : input.survey.points) {
+      if (p.scan != input.files[i] || p.use != PointUse::kControl) continue;
+      out.points.push_back({p.name, p.measured - input.sampled[i].scan.origin, p.given, p.sigma_given_m.maxCoeff(),
+                            p.sigma_measured_m.maxCoeff()});
+    }
+  }
+  return {std::move(surveyed), voxel_m};
+}
 
 SurveyPlacement fit_to_survey(const PipelineInput& input, const std::vector<PreparedScan>& scans,
                               const Resolutions& resolutions, const std::vector<SettledComponent>& settled,
