@@ -278,6 +278,10 @@ TEST_F(RegisterTunnel, PositionsKeepScansFromLyingAPeriodOff) {
   const auto [wrong_with, registered_with] = wrong_and_registered({"--gnss", "gnss.csv"});
   EXPECT_EQ(wrong_with, 0);
   EXPECT_GE(registered_with, 3);
+  const auto report = read_json(folder() / "out/report.json");
+  EXPECT_TRUE(std::any_of(report["hypotheses"].begin(), report["hypotheses"].end(), [](const auto& h) {
+    return h.contains("by_survey") && h["by_survey"].template get<double>() == -8;
+  }));
 }
 
 #ifdef TCM_ICP_HAVE_PROJ

@@ -110,34 +110,38 @@ TEST_F(SurveyEvidenceTest, UprightScansAreNotTilted) {
   EXPECT_EQ(log_odds(upright * Eigen::AngleAxisd(0.2, Vector3d::UnitY())), 0) << "one of both is not known to be";
 }
 
-// Pairs of all of six scans.
+// Pairs of all of ten scans.
 std::vector<PairBySurvey> all_pairs(const std::function<bool(std::size_t, std::size_t)>& contradicted) {
   std::vector<PairBySurvey> out;
-  for (std::size_t a = 0; a < 6; ++a) {
-    for (std::size_t b = a + 1; b < 6; ++b) out.push_back({a, b, contradicted(a, b) ? -8.0 : 0.0});
+  for (std::size_t a = 0; a < 10; ++a) {
+    for (std::size_t b = a + 1; b < 10; ++b) out.push_back({a, b, contradicted(a, b) ? -8.0 : 0.0});
   }
   return out;
 }
 
 TEST(SurveyBlunders, AreScansThatAllOthersContradict) {
-  const std::vector<bool> none(7, false);
-  EXPECT_EQ(survey_blunders({}, 7), none);
-  EXPECT_EQ(survey_blunders(all_pairs([](auto, auto) { return false; }), 7), none);
-  for (const std::size_t wrong : {0U, 3U, 5U}) {
+  const std::vector<bool> none(11, false);
+  EXPECT_EQ(survey_blunders({}, 11), none);
+  EXPECT_EQ(survey_blunders(all_pairs([](auto, auto) { return false; }), 11), none);
+  for (const std::size_t wrong : {0U, 3U, 9U}) {
     std::vector<bool> expected = none;
     expected[wrong] = true;
-    EXPECT_EQ(survey_blunders(all_pairs([&](auto a, auto b) { return a == wrong || b == wrong; }), 7), expected);
+    EXPECT_EQ(survey_blunders(all_pairs([&](auto a, auto b) { return a == wrong || b == wrong; }), 11), expected);
   }
   std::vector<bool> two = none;
   two[1] = two[4] = true;
-  EXPECT_EQ(survey_blunders(all_pairs([&](auto a, auto b) { return two[a] || two[b]; }), 7), two);
+  EXPECT_EQ(survey_blunders(all_pairs([&](auto a, auto b) { return two[a] || two[b]; }), 11), two);
 }
 
-TEST(SurveyBlunders, WhereHalfOfTheScansWouldBeItIsPairsThatAreWrong) {
-  const std::vector<bool> none(6, false);
-  EXPECT_EQ(survey_blunders(all_pairs([](auto, auto) { return true; }), 6), none);
-  EXPECT_EQ(survey_blunders(all_pairs([](auto a, auto b) { return a < 3 || b < 3; }), 6), none);
-  EXPECT_EQ(survey_blunders(all_pairs([](auto a, auto b) { return a / 3 != b / 3; }), 6), none) << "two groups";
+TEST(SurveyBlunders, OneOfThreeMayBeOne) {
+  EXPECT_EQ(survey_blunders({{0, 1, 0}, {0, 2, -8}, {1, 2, -8}}, 3), (std::vector<bool>{false, false, true}));
+}
+
+TEST(SurveyBlunders, WhereManyScansWouldBeItIsPairsThatAreWrong) {
+  const std::vector<bool> none(10, false);
+  EXPECT_EQ(survey_blunders(all_pairs([](auto, auto) { return true; }), 10), none);
+  EXPECT_EQ(survey_blunders(all_pairs([](auto a, auto b) { return a < 3 || b < 3; }), 10), none);
+  EXPECT_EQ(survey_blunders(all_pairs([](auto a, auto b) { return a / 5 != b / 5; }), 10), none) << "two groups";
   EXPECT_EQ(survey_blunders({{0, 1, -8}}, 2), std::vector<bool>(2, false)) << "nobody knows which";
 }
 

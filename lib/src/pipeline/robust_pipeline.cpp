@@ -380,6 +380,7 @@ class RobustPipeline {
         record.free_space = h.measurements.free_space;
         record.is_later = h.is_later();
         record.log_odds = h.log_odds;
+        record.by_survey = h.by_survey;
         record.features = features_of(h, hypotheses_->reference());
         if (both != settled_.end()) {
           const auto& T = both->component.T_reference_scan;

@@ -241,6 +241,7 @@ Json report_object(const PipelineResult& result, const PipelineOptions& options,
                {"features", h.features},
                {"evidence", to_json(h.evidence)},
                {"free_space", to_json(h.free_space)}};
+    if (h.by_survey != 0) entry["by_survey"] = h.by_survey;
     if (h.candidate.method == CoarseMethod::kImplied) {
       entry["asked_at"] = to_json(Eigen::MatrixXd(h.candidate.T_target_source.matrix()));
     }

@@ -9,9 +9,10 @@
 namespace tcm_icp {
 namespace {
 
-constexpr double kUsualResidual = 3;      // standard deviations: what right poses show, too
-constexpr double kFewContradicted = 0.1;  // of pairs: their poses are wrong
-constexpr double kMostAgainst = 8;        // log-odds; one in 3,000 observations is a blunder at least
+constexpr double kUsualResidual = 3;         // standard deviations: what right poses show, too
+constexpr double kFewContradicted = 0.1;     // of pairs: their poses are wrong
+constexpr std::size_t kPairedOfBlunder = 5;  // blunders are rare: one scan of so many at most
+constexpr double kMostAgainst = 8;           // log-odds; one in 3,000 observations is a blunder at least
 
 double squared(double x) { return x * x; }
 
@@ -84,7 +85,8 @@ std::vector<bool> survey_blunders(const std::vector<PairBySurvey>& pairs, std::s
   const std::vector<bool> none(num_scans, false);
   std::vector<bool> out = none, has_pairs = none;
   for (const PairBySurvey& pair : pairs) has_pairs[pair.a] = has_pairs[pair.b] = true;
-  const auto most = std::count(has_pairs.begin(), has_pairs.end(), true);
+  const auto num_paired = static_cast<std::size_t>(std::count(has_pairs.begin(), has_pairs.end(), true));
+  const std::size_t most = num_paired < 3 ? 0 : std::max<std::size_t>(1, num_paired / kPairedOfBlunder);
   for (std::size_t left = 0;; ++left) {
     std::vector<std::size_t> all(num_scans, 0), contradicted(num_scans, 0);
     std::size_t num_all = 0, num_contradicted = 0;
@@ -95,7 +97,7 @@ std::vector<bool> survey_blunders(const std::vector<PairBySurvey>& pairs, std::s
       ++num_all, num_contradicted += count;
     }
     if (static_cast<double>(num_contradicted) <= kFewContradicted * static_cast<double>(num_all)) return out;
-    if (2 * (left + 1) >= static_cast<std::size_t>(most)) return none;
+    if (left + 1 > most) return none;
     std::size_t worst = num_scans;
     for (std::size_t i = 0; i < num_scans; ++i) {
       if (2 * contradicted[i] <= all[i]) continue;

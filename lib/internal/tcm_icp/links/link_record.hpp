@@ -45,7 +45,8 @@ struct LinkHypothesisRecord {
   AlignmentEvidence evidence;                               ///< of the pair alone
   FreeSpaceEvidence free_space;
   bool is_later = false;    ///< found for a scan that the first search left without a clear place
-  double log_odds = 0;      ///< that it is right, by the pair alone
+  double log_odds = 0;      ///< that it is right, by the pair alone and what is known of the survey frame
+  double by_survey = 0;     ///< the latter's part, at most 0
   LinkFeatures features{};  ///< what that was told from
   HypothesisStatus status = HypothesisStatus::kOpen;
 };
