@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <functional>
@@ -128,6 +129,13 @@ TEST(SurveyBlunders, AreScansThatAllOthersContradict) {
     expected[wrong] = true;
     EXPECT_EQ(survey_blunders(all_pairs([&](auto a, auto b) { return a == wrong || b == wrong; }), 11), expected);
   }
+  // A scan with few pairs among many that agree.
+  std::vector<PairBySurvey> pairs = all_pairs([](auto, auto) { return false; });
+  pairs.push_back({10, 2, -8});
+  EXPECT_EQ(survey_blunders(pairs, 11), none) << "a single pair may be wrong";
+  pairs.push_back({10, 7, -8});
+  EXPECT_TRUE(survey_blunders(pairs, 11)[10]);
+  EXPECT_EQ(std::ranges::count(survey_blunders(pairs, 11), true), 1);
   std::vector<bool> two = none;
   two[1] = two[4] = true;
   EXPECT_EQ(survey_blunders(all_pairs([&](auto a, auto b) { return two[a] || two[b]; }), 11), two);

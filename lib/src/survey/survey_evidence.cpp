@@ -38,6 +38,23 @@ double residual_of_points(const SurveyedScan& with_points, const SurveyedScan& o
   return largest;
 }
 
+struct Contradicted {
+  std::size_t pairs = 0, contradicted = 0;
+
+  void add(const PairBySurvey& pair) {
+    ++pairs;
+    if (pair.log_odds < 0) ++contradicted;
+  }
+  // One pair alone may just be wrong.
+  bool is_most() const { return contradicted >= 2 && 2 * contradicted > pairs; }
+  // By the share, then the number; those of which not most are contradicted come first.
+  bool operator<(const Contradicted& other) const {
+    if (is_most() != other.is_most()) return other.is_most();
+    const std::size_t own = contradicted * other.pairs, others = other.contradicted * pairs;
+    return own != others ? own < others : pairs < other.pairs;
+  }
+};
+
 }  // namespace
 
 SurveyEvidence::SurveyEvidence(std::vector<SurveyedScan> scans, double voxel_m)
@@ -88,26 +105,19 @@ std::vector<bool> survey_blunders(const std::vector<PairBySurvey>& pairs, std::s
   const auto num_paired = static_cast<std::size_t>(std::count(has_pairs.begin(), has_pairs.end(), true));
   const std::size_t most = num_paired < 3 ? 0 : std::max<std::size_t>(1, num_paired / kPairedOfBlunder);
   for (std::size_t left = 0;; ++left) {
-    std::vector<std::size_t> all(num_scans, 0), contradicted(num_scans, 0);
-    std::size_t num_all = 0, num_contradicted = 0;
+    std::vector<Contradicted> scans(num_scans);
+    Contradicted all;
     for (const PairBySurvey& pair : pairs) {
       if (out[pair.a] || out[pair.b]) continue;
-      const std::size_t count = pair.log_odds < 0 ? 1 : 0;
-      for (const std::size_t scan : {pair.a, pair.b}) ++all[scan], contradicted[scan] += count;
-      ++num_all, num_contradicted += count;
+      for (Contradicted* count : {&scans[pair.a], &scans[pair.b], &all}) count->add(pair);
     }
-    if (static_cast<double>(num_contradicted) <= kFewContradicted * static_cast<double>(num_all)) return out;
-    if (left + 1 > most) return none;
-    std::size_t worst = num_scans;
-    for (std::size_t i = 0; i < num_scans; ++i) {
-      if (2 * contradicted[i] <= all[i]) continue;
-      if (worst == num_scans || contradicted[i] * all[worst] > contradicted[worst] * all[i] ||
-          (contradicted[i] * all[worst] == contradicted[worst] * all[i] && all[i] > all[worst])) {
-        worst = i;
-      }
+    // The first of several.
+    const auto worst = std::max_element(scans.begin(), scans.end(), [](const auto& x, const auto& y) { return x < y; });
+    if (worst == scans.end() || !worst->is_most()) {
+      return static_cast<double>(all.contradicted) <= kFewContradicted * static_cast<double>(all.pairs) ? out : none;
     }
-    if (worst == num_scans) return none;
-    out[worst] = true;
+    if (left == most) return none;
+    out[static_cast<std::size_t>(worst - scans.begin())] = true;
   }
 }
 

@@ -58,9 +58,9 @@ struct PairBySurvey {
 };
 
 /// Scans of which something else is known than is true, or something is known of the wrong scan: one after another
-/// those that most of their pairs contradict, as long as pairs without them contradict the survey, too. Where one in
-/// five of the scans that have pairs, or one of three and more, explains nearly all of it, these; otherwise none, for
-/// then the pairs are wrong. Cost: scans times pairs.
+/// those that most of their pairs contradict, two at least. Where no more than one in five of the scans that have
+/// pairs, or one of three and more, explain nearly all that contradicts the survey, these; otherwise none, for then the
+/// pairs are wrong. Cost: scans times pairs.
 std::vector<bool> survey_blunders(const std::vector<PairBySurvey>& pairs, std::size_t num_scans);
 
 }  // namespace tcm_icp
