@@ -34,6 +34,9 @@ constexpr double kLinkAccepted = 0.95, kLinkRejected = 0.5;
 
 /// Agreeing points below which nothing is decided: a share of three in ten is known to 0.08 by so many.
 constexpr std::size_t kFewAgreeing = 30;
+/// [coarse voxels] Standard deviation of a scan's points up to which what is known of it in the survey frame puts it
+/// there without a link to the others: poses so far apart are what a fit tells apart.
+constexpr double kSureInSurvey = 1;
 
 // --- Free space (docs/decisions/0017-scan-lines.md)
 

@@ -36,7 +36,6 @@ struct Inferred {
 };
 
 constexpr double kMostLead = 12;  // what is less likely by so much is asked by nobody before poses are decided on
-constexpr double kSurePlace = 1;  // coarse voxel: standard deviation of a scan that no link ties to the reference
 constexpr int kLeastStarts = 2;   // of large sets, where there are other hypotheses
 constexpr int kMaxLearnt = 4;     // rounds: what the set's constant is, and which poses are likeliest with it
 constexpr int kMaxImplied = 3;    // rounds: what they show may move scans, which implies other poses
@@ -349,7 +348,7 @@ class RobustPipeline {
     if (pose.status != ScanStatus::kUnregistered) return;
     pose.status = ScanStatus::kRegistered;
     const auto& sigma = placement_.sigma_in_voxels[scan];
-    const bool is_sure = sigma.has_value() && *sigma <= kSurePlace;
+    const bool is_sure = sigma.has_value() && *sigma <= kSureInSurvey;
     pose.verdict = is_sure && placement_.is_confirmed[scan] ? Verdict::kAccepted : Verdict::kDoubtful;
     pose.pose_in_component.reset();
     const std::string how_loosely =
