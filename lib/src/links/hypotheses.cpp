@@ -84,9 +84,20 @@ void HypothesisSet::score() {
   for (auto& [pair, hypotheses] : pairs_) {
     for (auto& h : hypotheses) {
       h.second_best_ratio = second_best_ratio(h, hypotheses, moments_[pair.second], same_m());
-      h.by_survey = survey_.log_odds(pair.first, pair.second, h.T_a_b);
       h.log_odds = in_set(h, hypothesis_log_odds(features_of(h, reference_)));
     }
+  }
+  if (!survey_.empty()) weigh_by_survey();
+  for (auto& [pair, hypotheses] : pairs_) {
+    std::stable_sort(hypotheses.begin(), hypotheses.end(),
+                     [](const LinkHypothesis& x, const LinkHypothesis& y) { return x.log_odds > y.log_odds; });
+  }
+}
+
+void HypothesisSet::weigh_by_survey() {
+  blunders_.clear();
+  for (auto& [pair, hypotheses] : pairs_) {
+    for (auto& h : hypotheses) h.by_survey = by_survey(pair.first, pair.second, h.T_a_b);
   }
   blunders_ = survey_blunders(likely_by_survey(), moments_.size());
   for (auto& [pair, hypotheses] : pairs_) {
@@ -94,9 +105,11 @@ void HypothesisSet::score() {
       if (is_blunder(pair.first) || is_blunder(pair.second)) h.by_survey = 0;
       h.log_odds += h.by_survey;
     }
-    std::stable_sort(hypotheses.begin(), hypotheses.end(),
-                     [](const LinkHypothesis& x, const LinkHypothesis& y) { return x.log_odds > y.log_odds; });
   }
+}
+
+double HypothesisSet::by_survey(std::size_t a, std::size_t b, const Eigen::Isometry3d& T_a_b) const {
+  return is_blunder(a) || is_blunder(b) ? 0 : survey_.log_odds(a, b, T_a_b);
 }
 
 std::vector<PairBySurvey> HypothesisSet::likely_by_survey() const {
@@ -176,9 +189,7 @@ PoseHypothesis HypothesisSet::pose_of(const MeasuredPose& measured) const {
   if (const auto known = pairs_.find({measured.a, measured.b}); known != pairs_.end()) {
     h.second_best_ratio = second_best_ratio(h, known->second, moments_[measured.b], same_m());
   }
-  if (!is_blunder(measured.a) && !is_blunder(measured.b)) {
-    h.by_survey = survey_.log_odds(measured.a, measured.b, h.T_a_b);
-  }
+  h.by_survey = by_survey(measured.a, measured.b, h.T_a_b);
   h.log_odds = in_set(h, hypothesis_log_odds(features_of(h, reference_))) + h.by_survey;
   PoseHypothesis out = pose_of(h);
   out.is_there = true;

@@ -110,6 +110,10 @@ class HypothesisSet {
   PoseHypothesis pose_of(const LinkHypothesis& h) const;
   PoseHypothesis pose_of(const MeasuredPose& measured) const;
 
+  /// Adds what the survey says to all log-odds, but of scans of which it says something wrong. @pre log_odds are by
+  /// what pairs show alone
+  void weigh_by_survey();
+  double by_survey(std::size_t a, std::size_t b, const Eigen::Isometry3d& T_a_b) const;
   /// Of each pair that has hypotheses above even odds. @pre log_odds are by what pairs show alone
   std::vector<PairBySurvey> likely_by_survey() const;
   bool is_blunder(std::size_t scan) const { return !blunders_.empty() && blunders_[scan]; }
@@ -127,7 +131,7 @@ class HypothesisSet {
   double voxel_m_, noise_m_;
   std::vector<PointMoments> moments_;
   SurveyEvidence survey_;
-  std::vector<bool> blunders_;  // of each scan, whether what is known of it is set aside; empty before score()
+  std::vector<bool> blunders_;  // of each scan, whether what is known of it is set aside; empty: of none
   std::map<std::pair<std::size_t, std::size_t>, std::vector<LinkHypothesis>> pairs_;
   SetReference reference_;
   // What the constant of those that the first search found was learnt from.

@@ -41,8 +41,16 @@ double level_of(const PipelineInput& in, std::size_t scan) {
 /// Rms distance of its points from their middle.
 double radius_m(const PreparedScan& scan) { return std::sqrt(scan.moments.covariance.trace()); }
 
-double fixed_sigma_rad(const PreparedScan& scan) {
-  return radius_m(scan) > 0 ? kFixedSigma_m / radius_m(scan) : kFixedSigma_m;
+/// Of a scan that is fixed or has a weighted initial pose.
+std::optional<SurveyedScan::Pose> known_pose(const PipelineInput& in, std::size_t i, const PreparedScan& scan,
+                                             const InitialPoses& T_init) {
+  if (is_fixed(in, i)) {
+    const double sigma_rad = radius_m(scan) > 0 ? kFixedSigma_m / radius_m(scan) : kFixedSigma_m;
+    return SurveyedScan::Pose{*T_init[i], kFixedSigma_m, sigma_rad};
+  }
+  const PosePrior* const prior = prior_of(in, i);
+  if (prior == nullptr) return std::nullopt;
+  return SurveyedScan::Pose{*T_init[i], prior->sigma_position_m, prior->sigma_rotation_rad};
 }
 
 /// Scans that share a local frame.
@@ -166,12 +174,9 @@ class SurveyFrame {
     }
     for (std::size_t k = 0; k < members.scans.size(); ++k) {
       const std::size_t i = members.scans[k];
-      if (is_fixed(in_, i)) {
-        out.poses.push_back({in_.files[i], k, Eigen::Translation3d(-record_.origin) * *T_init_[i],
-                             fixed_sigma_rad(scans_[i]), kFixedSigma_m, true});
-      } else if (const PosePrior* const prior = prior_of(in_, i)) {
-        out.poses.push_back({in_.files[i], k, Eigen::Translation3d(-record_.origin) * *T_init_[i],
-                             prior->sigma_rotation_rad, prior->sigma_position_m});
+      if (const auto known = known_pose(in_, i, scans_[i], T_init_)) {
+        out.poses.push_back({in_.files[i], k, Eigen::Translation3d(-record_.origin) * known->T_survey_scan,
+                             known->sigma_rotation_rad, known->sigma_position_m, is_fixed(in_, i)});
       }
       if (const double sigma_rad = level_of(in_, i); sigma_rad > 0) out.levels.push_back({k, sigma_rad});
     }
@@ -302,11 +307,7 @@ SurveyEvidence survey_evidence(const PipelineInput& input, const std::vector<Pre
     out.middle = scans[i].moments.mean;
     out.radius_m = radius_m(scans[i]);
     out.sigma_level_rad = level_of(input, i);
-    if (is_fixed(input, i)) {
-      out.pose = {*T_init[i], kFixedSigma_m, fixed_sigma_rad(scans[i])};
-    } else if (const PosePrior* const prior = prior_of(input, i)) {
-      out.pose = {*T_init[i], prior->sigma_position_m, prior->sigma_rotation_rad};
-    }
+    out.pose = known_pose(input, i, scans[i], T_init);
     for (const ControlPoint& p : input.survey.points) {
       if (p.scan != input.files[i] || p.use != PointUse::kControl) continue;
       out.points.push_back({p.name, p.measured - input.sampled[i].scan.origin, p.given, p.sigma_given_m.maxCoeff(),

@@ -61,7 +61,7 @@ SurveyEvidence::SurveyEvidence(std::vector<SurveyedScan> scans, double voxel_m)
     : scans_(std::move(scans)), voxel_m_(voxel_m) {}
 
 double SurveyEvidence::log_odds(std::size_t a, std::size_t b, const Eigen::Isometry3d& T_a_b) const {
-  if (scans_.empty()) return 0;
+  if (empty()) return 0;
   const double beyond = squared(largest_residual(scans_[a], scans_[b], T_a_b)) - squared(kUsualResidual);
   return -std::clamp(beyond / 2, 0.0, kMostAgainst);
 }
@@ -112,7 +112,7 @@ std::vector<bool> survey_blunders(const std::vector<PairBySurvey>& pairs, std::s
       for (Contradicted* count : {&scans[pair.a], &scans[pair.b], &all}) count->add(pair);
     }
     // The first of several.
-    const auto worst = std::max_element(scans.begin(), scans.end(), [](const auto& x, const auto& y) { return x < y; });
+    const auto worst = std::max_element(scans.begin(), scans.end());
     if (worst == scans.end() || !worst->is_most()) {
       return static_cast<double>(all.contradicted) <= kFewContradicted * static_cast<double>(all.pairs) ? out : none;
     }

@@ -38,6 +38,8 @@ class SurveyEvidence {
   /// @param voxel_m  > 0; poses of pairs that have been fitted are as good as that [m], rms over their points
   SurveyEvidence(std::vector<SurveyedScan> scans, double voxel_m);
 
+  bool empty() const { return scans_.empty(); }
+
   /// What is known of both, against a pose: half of the squared normalised residual of what contradicts it most, as far
   /// as that is beyond three standard deviations; -8 at the least, for what is known may be a blunder. Distances
   /// between points of either scan are compared, points with the pose of the other scan, poses, and verticals. Poses
